@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Compiles one shader from GLSL to SPIR-V (warnings are errors), optimises it with spirv-opt, validates it
-# with spirv-val, and writes it as a C++ array.
+# Compiles one shader from GLSL to SPIR-V (warnings are errors), optimises it with spirv-opt unless DEBUG_INFO is
+# on, validates it with spirv-val, and writes it as a C++ array.
 get_filename_component(dir ${OUTPUT} DIRECTORY)
 file(MAKE_DIRECTORY ${dir})
 if(FAMILY)
@@ -13,33 +13,53 @@ endif()
 # Modules run on every device of Vulkan 1.1 (engine/DECISIONS.md, 58), so all shaders are compiled for it.
 set(VULKAN vulkan1.1)
 set(spv ${OUTPUT}.spv)
-execute_process(
-    COMMAND ${GLSLANG} -V --target-env ${VULKAN} --quiet -I${INCLUDE} ${family} --depfile ${OUTPUT}.d.in
-        -o ${spv} ${INPUT}
-    OUTPUT_VARIABLE log ERROR_VARIABLE log RESULT_VARIABLE failed)
-if(failed OR log MATCHES "WARNING")
-    file(REMOVE ${OUTPUT})
-    message(FATAL_ERROR "${INPUT}:\n${log}")
+# Debuggers get code that is not optimised, with its source. glslang 12 cannot make the best form of this, -gVS, for
+# every shader: it crashes (shade_tiles) or makes invalid code (cluster_lists). These shaders get -g instead, which has
+# the source and line numbers, but no variables.
+set(debug_info "none")
+if(DEBUG_INFO)
+    set(debug_info -gVS -g)
 endif()
-# Puts functions that return only at their end in the place of their calls, and removes what is never used.
-# Drivers then have to do it only for the others (engine/DECISIONS.md, 47, which also says why other passes
-# are left out). It changes no calculation. Bindings and specialisation constants that a kernel does not
-# use stay, because the engine reads them all.
-execute_process(
-    COMMAND ${SPIRV_OPT} --target-env=${VULKAN} --scalar-block-layout --preserve-bindings
-        --preserve-spec-constants --eliminate-dead-branches --inline-entry-points-exhaustive
-        --eliminate-dead-functions --private-to-local --eliminate-local-single-block
-        --eliminate-local-single-store --eliminate-dead-code-aggressive ${spv} -o ${spv}
-    OUTPUT_VARIABLE log ERROR_VARIABLE log RESULT_VARIABLE failed)
-if(failed)
+foreach(kind ${debug_info})
+    if(kind STREQUAL "none")
+        set(kind)
+    endif()
+    execute_process(
+        COMMAND ${GLSLANG} -V ${kind} --target-env ${VULKAN} --quiet -I${INCLUDE} ${family}
+            --depfile ${OUTPUT}.d.in -o ${spv} ${INPUT}
+        OUTPUT_VARIABLE log ERROR_VARIABLE log RESULT_VARIABLE failed)
+    if(failed OR log MATCHES "WARNING")
+        set(fault "${INPUT}:\n${log}")
+        continue()
+    endif()
+    # Puts functions that return only at their end in the place of their calls, and removes what is never used.
+    # Drivers then have to do it only for the others (engine/DECISIONS.md, 47, which also says why other passes
+    # are left out). It changes no calculation. Bindings and specialisation constants that a kernel does not
+    # use stay, because the engine reads them all.
+    if(NOT DEBUG_INFO)
+        execute_process(
+            COMMAND ${SPIRV_OPT} --target-env=${VULKAN} --scalar-block-layout --preserve-bindings
+                --preserve-spec-constants --eliminate-dead-branches --inline-entry-points-exhaustive
+                --eliminate-dead-functions --private-to-local --eliminate-local-single-block
+                --eliminate-local-single-store --eliminate-dead-code-aggressive ${spv} -o ${spv}
+            OUTPUT_VARIABLE log ERROR_VARIABLE log RESULT_VARIABLE failed)
+        if(failed)
+            set(fault "spirv-opt ${INPUT}:\n${log}")
+            continue()
+        endif()
+    endif()
+    execute_process(COMMAND ${SPIRV_VAL} --target-env ${VULKAN} --scalar-block-layout ${spv}
+        OUTPUT_VARIABLE log ERROR_VARIABLE log RESULT_VARIABLE failed)
+    if(failed)
+        set(fault "spirv-val ${INPUT}:\n${log}")
+        continue()
+    endif()
+    set(fault)
+    break()
+endforeach()
+if(fault)
     file(REMOVE ${OUTPUT})
-    message(FATAL_ERROR "spirv-opt ${INPUT}:\n${log}")
-endif()
-execute_process(COMMAND ${SPIRV_VAL} --target-env ${VULKAN} --scalar-block-layout ${spv}
-    OUTPUT_VARIABLE log ERROR_VARIABLE log RESULT_VARIABLE failed)
-if(failed)
-    file(REMOVE ${OUTPUT})
-    message(FATAL_ERROR "spirv-val ${INPUT}:\n${log}")
+    message(FATAL_ERROR "${fault}")
 endif()
 # glslang's depfile names the .spv file as its target; the build system needs the C++ file there.
 file(READ ${OUTPUT}.d.in deps)
