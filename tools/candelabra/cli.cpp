@@ -47,21 +47,21 @@ void describe(CLI::App& app, ProgramContext& context)
     app.require_subcommand(1);
     app.fallthrough(); // --quiet may stand after the command, too
     app.add_flag("-q,--quiet", context.quiet,
-                 "print only warnings and errors on stderr, no progress and no remarks");
+                 "print only warnings and errors on stderr, without progress and remarks");
     const uint32_t version = cndGetVersion();
     app.set_version_flag("--version", fmt::format("candelabra {}.{}.{}", version >> 22,
                                                   (version >> 12) & 0x3ff, version & 0xfff));
     app.footer(
-        "SCENE is hall, field or fence, which are generated with --lights N, --seed S and\n"
-        "--overlaps K; showcase, which has one light of every type; or a file: glTF 2.0 (.gltf,\n"
-        ".glb) or a scene description (.json).\n\n"
+        "SCENE is hall, field or fence, generated with --lights N, --seed S and --overlaps K;\n"
+        "showcase, which has one light of every type; or a file, glTF 2.0 (.gltf, .glb) or a\n"
+        "scene description (.json).\n\n"
         "Examples:\n"
         "  candelabra stress                        measure growing numbers of lights, into out/\n"
         "  candelabra render hall --lights 16000 -o hall.png\n"
         "  candelabra profile hall --lights 4000    time every pass of a frame\n"
         "  candelabra view hall --lights 4000       fly through the hall\n"
         "  candelabra help render                   list the options of one command\n"
-        "  candelabra examples                      write small files to try, here");
+        "  candelabra examples                      write small example files here");
 }
 
 std::vector<const CLI::App*> partsOf(const CLI::App& app)
@@ -206,8 +206,7 @@ void refuseEmptyValues(const CLI::App& app)
 // the others.
 void addHelpCommand(CLI::App& app)
 {
-    CLI::App* help =
-        app.add_subcommand("help", "Print the help of the program or of one of its commands");
+    CLI::App* help = app.add_subcommand("help", "Print the help of the program or of a command");
     help->add_option("command")->description("the command, such as render or bench culling");
     help->footer("Examples:\n"
                  "  candelabra help\n"

@@ -112,7 +112,7 @@ void addOptions(CLI::App& command, AccuracyArguments& a)
     };
     add("--groups", a.groups,
         "groups of 89 light directions for sphere lights; other shapes get a third as many", "N");
-    add("--rounds", a.rounds, "rounds of timing kernels; each runs every variant once", "N");
+    add("--rounds", a.rounds, "rounds of timed kernels; each round runs every variant once", "N");
     add("--samples", a.samples, "samples per light of the method \"sampled\"", "N");
     add("--size", a.size, "size of the images that are compared with the truth", "WxH");
     add("--frames", a.frames, "timed frames of every method and scene, after one warm-up frame",

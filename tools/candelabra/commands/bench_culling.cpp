@@ -87,8 +87,8 @@ int culling(const ProgramContext& program, const CullingArguments& a)
 void addBenchCulling(CLI::App& bench, Run& run)
 {
     CLI::App* command =
-        bench.add_subcommand("culling", "Compare time and lists of the engine with 2D tiles, "
-                                        "froxels, brute force and no culling at all");
+        bench.add_subcommand("culling", "Compare the engine's times and light lists with 2D tiles, "
+                                        "froxels, brute force and no culling");
     const auto a = std::make_shared<CullingArguments>();
     const auto add = [&](const char* name, std::string& value, const char* what, const char* type) {
         command->add_option(name, value, what)->type_name(type)->capture_default_str();
@@ -97,7 +97,7 @@ void addBenchCulling(CLI::App& bench, Run& run)
     add("--lights", a->lights, "numbers of lights, up to 1,000,000", "N,N,...");
     add("--overlaps", a->overlaps, "mean numbers of lights that contribute to a pixel", "K,K,...");
     add("--size", a->sizes, "image sizes", "WxH,...");
-    add("--rounds", a->rounds, "rounds; each draws the frame once in every way", "N");
+    add("--rounds", a->rounds, "rounds; each round draws the frame once in every way", "N");
     add("--brute-limit", a->bruteLimit,
         "skip brute force, and report an estimate, if a frame would take longer", "SECONDS");
     add("--seed", a->seed, "seed of the scenes and lights", "N");
@@ -105,17 +105,16 @@ void addBenchCulling(CLI::App& bench, Run& run)
     a->device.addTo(*command);
     command->footer(
         "Times are GPU times of lighting: preparing lights, culling and shading, without the\n"
-        "raster pass. Emitters are not drawn. All ways shade with the engine's functions by the\n"
-        "closed form:\n"
-        "  16x16 tiles   tests every light against every tile's frustum and range of depth\n"
+        "raster pass. Emitters are not drawn. All ways shade with the engine's closed form:\n"
+        "  16x16 tiles   tests every light against every tile's frustum and depth range\n"
         "  froxels       cells of 64x64 pixels in 32 slices, which grow exponentially between\n"
         "                the nearest and the farthest surface; spheres are tested against boxes\n"
         "  brute force   evaluates all lights at all pixels; once if it takes over a second\n"
-        "  floor         does as many evaluations per pixel as lights contribute, and looks\n"
-        "                for no light\n"
-        "From 6 rounds on there is an interval of the ratio to the fastest other way.\n"
+        "  floor         does as many evaluations per pixel as lights contribute, without\n"
+        "                searching for lights\n"
+        "With 6 rounds or more, the ratio to the fastest other way gets an interval.\n"
         "The exit code is 1 if an image differs from the engine's by more than 4e-6 of the\n"
-        "largest radiance, or that of brute force by more than 1e-6.\n\n"
+        "largest radiance, or if the image of brute force differs by more than 1e-6.\n\n"
         "Examples:\n"
         "  candelabra bench culling\n"
         "  candelabra bench culling --scenes hall --lights 4000 --overlaps 30 --rounds 15\n"

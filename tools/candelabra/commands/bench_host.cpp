@@ -59,7 +59,7 @@ void addBenchHost(CLI::App& bench, Run& run)
         command->add_option(name, value, what)->type_name(type)->capture_default_str();
     };
     add("--lights", a->lights, "numbers of sphere lights of the hall, up to 1,000,000", "N,N,...");
-    add("--rounds", a->rounds, "rounds; each makes every call once", "N");
+    add("--rounds", a->rounds, "rounds; each round makes every call once", "N");
     add("--seed", a->seed, "seed of the lights", "N");
     command->add_option("--json", a->json, "JSON file with all figures; - is standard output")
         ->type_name("FILE");

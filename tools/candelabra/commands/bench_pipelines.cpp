@@ -74,33 +74,32 @@ int pipelines(const ProgramContext& program, const PipelineArguments& a)
 void addBenchPipelines(CLI::App& bench, Run& run)
 {
     CLI::App* command = bench.add_subcommand(
-        "pipelines", "List registers, spills and size of every pipeline, as the driver tells them");
+        "pipelines",
+        "List the registers, spills and size of every pipeline, as the driver reports them");
     const auto a = std::make_shared<PipelineArguments>();
     const auto add = [&](const char* name, std::string& value, const char* what, const char* type) {
         command->add_option(name, value, what)->type_name(type);
     };
     add("--kernels", a->kernels, "compile these kernels only, such as shade_tiles,cluster_lists",
         "NAME,...");
-    add("--types", a->types, "kernels that shade: compile them for these light types only",
-        "NAME,...");
-    add("--methods", a->methods, "kernels that shade: compile them for these methods only",
-        "NAME,...");
+    add("--types", a->types, "compile shading kernels for these light types only", "NAME,...");
+    add("--methods", a->methods, "compile shading kernels for these methods only", "NAME,...");
     command->add_flag("--no-classes", a->noClasses,
-                      "leave out the kernels for tiles without a specular lobe");
+                      "skip the kernels for tiles without a specular lobe");
     add("--device", a->device,
-        "Vulkan device by its index or a part of its name; it needs not be able to draw",
+        "Vulkan device, by its index or part of its name; it need not be able to draw",
         "INDEX|NAME");
     add("--json", a->json, "JSON file with all figures; - is standard output", "FILE");
     command->add_flag("--all-statistics", a->others,
-                      "write everything that the driver tells to the JSON file");
+                      "write everything that the driver reports to the JSON file");
     command->footer(
-        "The device needs the extension VK_KHR_pipeline_executable_properties. Nothing is drawn, "
-        "so\n"
-        "a driver without its GPU will do. Mesa's driver for AMD GPUs can be started like that:\n"
+        "The device needs the extension VK_KHR_pipeline_executable_properties. Nothing is\n"
+        "drawn, so a driver without its GPU is enough. You can start Mesa's driver for AMD\n"
+        "GPUs like this:\n"
         "  VK_ICD_FILENAMES=/usr/share/vulkan/icd.d/radeon_icd.x86_64.json RADV_DEBUG=nocache \\\n"
         "  RADV_FORCE_FAMILY=NAVI21 RADV_PERFTEST=cswave32 candelabra bench pipelines\n"
-        "tools/gpu_stats in the source tree does so for several GPUs and compares with the "
-        "record.\n\n"
+        "tools/gpu_stats in the source tree does this for several GPUs and compares the\n"
+        "results with the record.\n\n"
         "Examples:\n"
         "  candelabra bench pipelines\n"
         "  candelabra bench pipelines --kernels shade_tiles --types sphere --methods conic");

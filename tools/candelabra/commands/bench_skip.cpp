@@ -157,13 +157,13 @@ void addBenchSkip(CLI::App& bench, Run& run)
     add("--scene", a->scene, "scene to draw", "NAME");
     add("--lights", a->lights, "number of sphere lights, up to 1,000,000", "N");
     add("--size", a->size, "image size", "WxH");
-    add("--rounds", a->rounds, "rounds; each draws both frames of a pair once", "N");
+    add("--rounds", a->rounds, "rounds; each round draws both frames of a pair once", "N");
     addBenchOutput(*command, a->directory, a->json, "bench_skip.json");
     a->device.addTo(*command);
     command->footer(
-        "Each row is one skip. It holds the GPU time of the passes concerned with the skip and\n"
-        "without it, as profile --ab measures them. The exit code is 1 if the images of the two\n"
-        "frames differ.\n\n"
+        "Each row is one skip, with the GPU time of its passes with the skip and without it,\n"
+        "as profile --ab measures them. The exit code is 1 if the images of the two frames\n"
+        "differ.\n\n"
         "Example:\n"
         "  candelabra bench skip --scene field --lights 16000");
     command->callback(

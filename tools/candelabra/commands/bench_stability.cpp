@@ -91,20 +91,19 @@ void addBenchStability(CLI::App& bench, Run& run)
 {
     CLI::App* command = bench.add_subcommand(
         "stability",
-        "Try random and adversarial inputs: count invalid responses, measure errors and "
-        "jumps");
+        "Try random and adversarial inputs, count invalid responses, and measure errors and jumps");
     const auto a = std::make_shared<StabilityArguments>();
     command
         ->add_option("--configs", a->configurations,
-                     "number of configurations in all; 1e8 take minutes on two CPU cores")
+                     "total number of configurations; 1e8 take minutes on two CPU cores")
         ->type_name("N")
         ->capture_default_str();
     command
         ->add_option("--quadrature", a->quadrature,
-                     "number of configurations in all whose response is compared with quadrature")
+                     "total number of configurations to compare with quadrature")
         ->type_name("N")
         ->capture_default_str();
-    command->add_option("--sweeps", a->sweeps, "number of sweeps of each check of continuity")
+    command->add_option("--sweeps", a->sweeps, "number of sweeps per continuity check")
         ->type_name("N")
         ->capture_default_str();
     command->add_option("--seed", a->seed, "seed of all random inputs")
@@ -115,20 +114,19 @@ void addBenchStability(CLI::App& bench, Run& run)
     command->add_option("--specular", a->specular, "specular methods to try; default: all")
         ->type_name("METHOD,...");
     command->add_flag("--inexact-division", a->inexactDivision,
-                      "make every quotient and root as wrong as Vulkan allows, so that any device "
-                      "shows what rounding on GPUs does; leaves out the checks of continuity");
+                      "make every quotient and root as inaccurate as Vulkan allows, so that any "
+                      "device shows the effect of rounding on GPUs; skips the continuity checks");
     addBenchOutput(*command, a->directory, a->json, "bench_stability.json");
     a->device.addTo(*command);
-    command->footer("The exit code is 1 if any response is NaN, infinite, negative or (closed "
-                    "forms) brighter\n"
-                    "than a light of that size and place can be, or if a closed form is farther "
-                    "from quadrature than\n"
-                    "its bar.\n\n"
-                    "Examples:\n"
-                    "  candelabra bench stability\n"
-                    "  candelabra bench stability --configs 1e10 --quadrature 1000000\n"
-                    "  candelabra bench stability --light-types tube,rectangle --specular conic\n"
-                    "  candelabra bench stability --inexact-division --seed 2");
+    command->footer(
+        "The exit code is 1 if any response is NaN, infinite or negative. It is also 1 if a\n"
+        "closed form is brighter than a light of that size and place can be, or farther from\n"
+        "quadrature than its bound.\n\n"
+        "Examples:\n"
+        "  candelabra bench stability\n"
+        "  candelabra bench stability --configs 1e10 --quadrature 1000000\n"
+        "  candelabra bench stability --light-types tube,rectangle --specular conic\n"
+        "  candelabra bench stability --inexact-division --seed 2");
     command->callback(
         [&run, a] { run = [a](const ProgramContext& program) { return stability(program, *a); }; });
 }

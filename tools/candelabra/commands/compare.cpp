@@ -266,22 +266,22 @@ int compare(const ProgramContext& program, const CompareArguments& given)
 
 void addCompareCommand(CLI::App& app, Run& run)
 {
-    CLI::App* command = app.add_subcommand(
-        "compare", "Test whether two sets of runs of profile differ significantly");
+    CLI::App* command =
+        app.add_subcommand("compare", "Test whether two sets of profile runs differ significantly");
     const auto a = std::make_shared<CompareArguments>();
     command->add_option("A", a->fileA,
-                        "runs before a change: a file that profile --json --append has written");
-    command->add_option("B", a->fileB, "runs after it, likewise")->needs("A");
+                        "runs before a change, in a file written by profile --json --append");
+    command->add_option("B", a->fileB, "runs after the change, in such a file")->needs("A");
     command->add_option("--a", a->a, "several files with runs of A, instead of two files")
         ->type_name("FILE...");
     command->add_option("--b", a->b, "several files with runs of B")->type_name("FILE...");
     command->add_flag(
         "--paired", a->paired,
-        "the n-th run of A was made next to the n-th run of B: removes slow drifts of "
-        "the machine; needs at least 6 runs of each");
+        "compare the n-th run of A with the n-th run of B, which was made next to it; this removes "
+        "slow drifts of the machine and needs at least 6 runs of each");
     command
         ->add_option("--tolerance", a->tolerance,
-                     "exit with 3 only if something is slower by more than this")
+                     "set the exit code to 3 only if something is slower by more than this")
         ->type_name("PERCENT")
         ->capture_default_str();
     command->add_flag("--force", a->force,
@@ -291,17 +291,18 @@ void addCompareCommand(CLI::App& app, Run& run)
     command->add_option("--json", a->json, "JSON file with all figures; - is standard output")
         ->type_name("FILE");
     command->footer(
-        "A run is one call of profile. The shortest time of each pass over the frames of a run is\n"
-        "compared, because a busy machine adds least to it; with a camera path or moving lights\n"
-        "it is the median. The table shows the geometric means of these times over the runs, and\n"
-        "their quotient B / A. Compare at least 4 runs with 4, better 5 with 5 or more, of 40 "
-        "frames\n"
-        "or more each, and of equally many frames. Make the runs of A and B alternately, so that\n"
-        "a machine that becomes slower affects both.\n"
-        "\"cannot tell\" means that the interval is wider than the change; \"too short to time\",\n"
-        "that in some run the pass took no longer than the timestamp that is subtracted.\n"
-        "The exit code is 3 if something is slower, and 0 if nothing is or if the difference may\n"
-        "be chance.\n\n"
+        "A run is one call of profile. The comparison uses the shortest time of each pass\n"
+        "over the frames of a run, because a busy machine affects it least. With a camera\n"
+        "path or moving lights it uses the median. The table shows the geometric means of\n"
+        "these times over the runs, and their ratio B / A. Compare at least 4 runs with 4, or\n"
+        "better 5 with 5 or more. Each run should have 40 frames or more, and all runs\n"
+        "equally many. Alternate the runs of A and B, so that a machine that slows down\n"
+        "affects both.\n"
+        "\"cannot tell\" means that the interval is wider than the change. \"too short to time\"\n"
+        "means that in some run the pass took no longer than the timestamp that is\n"
+        "subtracted.\n"
+        "The exit code is 3 if something is slower. It is 0 if nothing is slower or if the\n"
+        "difference may be chance.\n\n"
         "Examples:\n"
         "  for i in 1 2 3 4 5; do\n"
         "    old/candelabra profile hall --json a.json --append -q\n"

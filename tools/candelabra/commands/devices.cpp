@@ -52,7 +52,7 @@ int listDevices(bool json)
 void addDevicesCommand(CLI::App& app, Run& run)
 {
     CLI::App* command =
-        app.add_subcommand("devices", "List the Vulkan devices and what each lacks");
+        app.add_subcommand("devices", "List the Vulkan devices and what each one lacks");
     const auto json = std::make_shared<bool>(false);
     command->add_flag("--json", *json, "print the list as JSON");
     command->footer("Examples:\n"

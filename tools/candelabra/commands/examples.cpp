@@ -43,13 +43,13 @@ int writeExamples(const std::string& directory, bool replace)
 void addExamplesCommand(CLI::App& app, Run& run)
 {
     CLI::App* command = app.add_subcommand(
-        "examples", "Write small files to try: scene.glb, scene.json and sky.hdr");
+        "examples", "Write small example files: scene.glb, scene.json and sky.hdr");
     const auto directory = std::make_shared<std::string>(".");
     const auto replace = std::make_shared<bool>(false);
     command->add_option("directory", *directory, "directory for the files")
         ->type_name("DIR")
         ->capture_default_str();
-    command->add_flag("--replace", *replace, "replace files that exist already");
+    command->add_flag("--replace", *replace, "replace existing files");
     command->footer("Examples:\n"
                     "  candelabra examples && candelabra render scene.glb -o scene.png");
     command->callback([&run, directory, replace] {

@@ -63,8 +63,8 @@ void addWarmUpTo(CLI::App& command, std::string& seconds)
 {
     command
         .add_option("--warm-up", seconds,
-                    "draw warm-up frames for at least so long, because the clock of a GPU that was "
-                    "idle rises slowly")
+                    "draw warm-up frames for at least this long, because the clock of an idle GPU "
+                    "rises slowly")
         ->type_name("SECONDS")
         ->capture_default_str();
 }
@@ -73,12 +73,12 @@ void DeviceArguments::addTo(CLI::App& command)
 {
     command
         .add_option("--device", device,
-                    "Vulkan device by its index or a part of its name, as candelabra devices lists "
+                    "Vulkan device, by its index or part of its name as `candelabra devices` lists "
                     "them; default: a discrete GPU, else an integrated one, else a CPU")
         ->type_name("INDEX|NAME");
     command.add_flag("--validate", validate,
-                     "run with the Vulkan validation layers; their messages go to stderr, and any "
-                     "message makes the exit code 1");
+                     "run with the Vulkan validation layers; messages go to stderr, and any "
+                     "message sets the exit code to 1");
 }
 
 ContextOptions DeviceArguments::contextOptions(Presentation presentation) const
@@ -103,15 +103,13 @@ void DeviceArguments::requireRoomFor(uint32_t lights) const
 
 void LobeArguments::addTo(CLI::App& command)
 {
-    addChoice(
-        command, "--lobes", lobes, lobeChoices,
-        "how the diffuse and the specular lobe of a material share the light (default: sum for "
-        "scene .json files without a source, else conserving)");
-    addChoice(
-        command, "--energy-compensation", energyCompensation, onOffChoices,
-        "add the light that bounces between microfacets, which the specular lobe loses: rough "
-        "metal is dark without it (default: on for glTF files and for scene .json files whose "
-        "source is one, else off)");
+    addChoice(command, "--lobes", lobes, lobeChoices,
+              "how the diffuse and specular lobes of a material share the light (default: sum for "
+              "scene .json files without a source, else conserving)");
+    addChoice(command, "--energy-compensation", energyCompensation, onOffChoices,
+              "add the light that bounces between microfacets and that the specular lobe loses, "
+              "without which rough metal looks dark (default: on for glTF files and for scene "
+              ".json files whose source is a glTF file, else off)");
 }
 
 void LobeArguments::applyTo(SceneOptions& options) const
@@ -136,16 +134,15 @@ void SceneArguments::addTo(CLI::App& command, const std::string& fallback)
         option->required();
     else
         option->capture_default_str();
-    command.add_option("--seed", seed, "seed of everything that is random in the scene (1)")
+    command.add_option("--seed", seed, "seed of all random numbers in the scene (1)")
         ->type_name("S");
     command
-        .add_option(
-            "--overlaps", overlaps,
-            "mean number of generated lights that contribute to a pixel; it sets the radius of "
-            "their influence (8)")
+        .add_option("--overlaps", overlaps,
+                    "mean number of generated lights that contribute to a pixel; sets their radius "
+                    "of influence (8)")
         ->type_name("K");
     command.add_flag("--moving", moving,
-                     "let lights move; the own lights of files stay where they are");
+                     "let the lights move; lights that a file has stay where they are");
     command
         .add_option("--punctual-radius", punctualRadius,
                     "glTF files: point lights without a radius become spheres of this radius (m)")
@@ -158,15 +155,14 @@ void SceneArguments::addTo(CLI::App& command, const std::string& fallback)
     command.add_flag("--emissive-lights", emissiveLights,
                      "glTF files: flat rectangles whose material emits become area lights");
     command
-        .add_option(
-            "--environment", environment,
-            "light from all directions: an equirectangular image in cd/m^2 (.hdr, .exr or .pfm), "
-            "with up at its top; it is also seen where no surface is")
+        .add_option("--environment", environment,
+                    "light the scene from all directions with an equirectangular image in cd/m^2 "
+                    "(.hdr, .exr or .pfm) whose top is up; it is also visible as the background")
         ->type_name("FILE");
     command
         .add_option(
             "--environment-rotation", environmentRotation,
-            "turn the environment about the vertical, counter-clockwise seen from above (0)")
+            "rotate the environment about the vertical, counter-clockwise when seen from above (0)")
         ->type_name("DEGREES");
     command
         .add_option("--environment-scale", environmentScale,
@@ -174,8 +170,8 @@ void SceneArguments::addTo(CLI::App& command, const std::string& fallback)
         ->type_name("FACTOR");
     command
         .add_option("--environment-illuminance", environmentIlluminance,
-                    "scale the environment so that it gives level ground this illuminance; a clear "
-                    "sky without the sun gives about 15,000 lx, a full moon 0.2 lx")
+                    "scale the environment to give level ground this illuminance; a clear sky "
+                    "without the sun gives about 15,000 lx, a full moon 0.2 lx")
         ->type_name("LX");
     lobes.addTo(command);
 }
@@ -184,17 +180,16 @@ void SceneArguments::addDefaultLightTo(CLI::App& command)
 {
     defaultLight = "on";
     addChoice(command, "--default-light", defaultLight, onOffChoices,
-              "light a scene that has no light of its own by a studio: a soft grey sky with a key "
-              "light; scene descriptions (.json) mean what they say and get none");
+              "light a scene that has no lights with a studio, a soft grey sky with a key light; "
+              "scene descriptions (.json) never get one");
 }
 
 void SceneArguments::addLightsTo(CLI::App& command)
 {
     command
-        .add_option(
-            "--lights", lightsOption,
-            "number of sphere lights of hall, field and fence (4000); a file gets as many random "
-            "ones in addition to its own")
+        .add_option("--lights", lightsOption,
+                    "number of sphere lights in hall, field and fence (4000); a file gets this "
+                    "many random lights in addition to its own")
         ->type_name("N");
 }
 
@@ -282,13 +277,13 @@ void FrameArguments::addViewTo(CLI::App& command)
             "--camera", camera,
             "camera of the scene by name (hall: nave, gallery; field: terrace, overview; fence: "
             "path, above; showcase: front, above; glTF files: their own, then three-quarter, "
-            "front, right, back, left and above, in rooms inside and inside-2) or by index, or a "
-            "new one: position and target in metres, and vertical field of view in degrees; "
-            "default: the scene's first, but the first automatic one if the file's own show the "
-            "scene less than half as wide and as high as the picture")
+            "front, right, back, left and above, and in rooms inside and inside-2) or by index, or "
+            "a new camera: position and target in metres, and vertical field of view in degrees; "
+            "default: the scene's first, or the first automatic one if the file's own cameras show "
+            "the scene less than half as wide and as high as the picture")
         ->type_name("NAME|INDEX|px,py,pz,tx,ty,tz[,fov]");
     addChoice(command, "--lights-visible", lightsVisible, onOffChoices,
-              "show area lights as emitters (default: as the scene says)");
+              "draw area lights as visible emitters (default: as the scene says)");
 }
 
 void FrameArguments::addTo(CLI::App& command)
@@ -297,27 +292,28 @@ void FrameArguments::addTo(CLI::App& command)
     addViewTo(command);
     command
         .add_option("--exposure", exposure,
-                    "automatic, or a fixed EV100; in the studio of --default-light, automatic is "
+                    "automatic, or a fixed EV100; with the studio of --default-light, auto uses "
                     "the EV100 of its light")
         ->type_name("auto|EV")
         ->capture_default_str();
     command
         .add_option("--compensation", compensation,
-                    "make the picture brighter by this many EV; hall, field, fence and showcase, "
-                    "where it is night, have -1 EV of their own")
+                    "make the picture brighter by this many EV; the night scenes hall, field, "
+                    "fence and showcase add -1 EV")
         ->type_name("EV")
         ->capture_default_str();
     command
         .add_option("--middle-grey", middleGrey,
-                    "calibration of the exposure: the exposed value of a surface that has the "
-                    "metered luminance; every tone map displays 0.18 as middle grey, 118 of 255")
+                    "exposure calibration: the exposed value of a surface with the metered "
+                    "luminance; every tone map displays 0.18 as middle grey, 118 of 255")
         ->type_name("SHARE")
         ->capture_default_str();
     addChoice(command, "--metering", metering, meteringChoices,
               "how automatic exposure weights the pixels");
     addChoice(command, "--tonemap", toneMap, toneMapChoices, "tone map of the display image");
     addChoice(command, "--specular", specular, specularChoices,
-              "method of evaluating the specular lobe");
+              "method for the specular lobe; conic is the closed form, karis the representative "
+              "point of Karis 2013, and sampled takes random samples");
     command
         .add_option("--samples", sampleCount,
                     "samples per light and pixel of --specular sampled (1..4096)")
@@ -325,52 +321,54 @@ void FrameArguments::addTo(CLI::App& command)
         ->capture_default_str();
     addChoice(command, "--gbuffer", gbuffer, gbufferChoices, "layout of the G-buffer");
     addChoice(command, "--lod", lod, onOffChoices,
-              "draw meshes by coarser levels of detail where that moves their surface by at most a "
+              "draw coarser levels of detail of meshes where that moves their surface by at most a "
               "quarter of a pixel");
     addChoice(command, "--cull-triangles", cullTriangles, onOffChoices,
-              "on llvmpipe, leave out triangles and visible lights that cover no pixel's centre "
-              "before they are rasterised; the picture is the same");
+              "on llvmpipe, drop triangles and visible lights that cover no pixel centre before "
+              "they are rasterised; the picture stays the same");
 }
 
 void FrameArguments::addFitTo(CLI::App& command)
 {
     command
-        .add_option("--fit", fit,
-                    "move the camera, without turning it, to where this node of a glTF file, with "
-                    "all below it, fills 85% of the picture; a name, or its number in the file")
+        .add_option(
+            "--fit", fit,
+            "move the camera, without turning it, until this node of a glTF file and everything "
+            "below it fill 85% of the picture; give the node's name or its number in the file")
         ->type_name("NODE|INDEX");
 }
 
 void FrameArguments::addCullingTo(CLI::App& command)
 {
     addChoice(command, "--culling", culling, cullingChoices,
-              "how a pixel finds its lights, by clusters or by trying all");
+              "find the lights of a pixel by clusters, or by trying every light");
 }
 
 void FrameArguments::addReuseTo(CLI::App& command, Reuse fallback)
 {
     reuse = reuseName(fallback);
-    addChoice(
-        command, "--reuse", reuse, reuseChoices,
-        "what a frame reuses of the frame before if nothing has changed; the image is the same");
+    addChoice(command, "--reuse", reuse, reuseChoices,
+              "what a frame reuses from the previous frame if nothing has changed; the image stays "
+              "the same");
 }
 
 void FrameArguments::addDebugTo(CLI::App& command)
 {
     addChoice(command, "--debug", heatMap, heatMapChoices,
-              "instead of the picture, show in false colours what the lights cost each pixel");
+              "show in false colours what the lights cost each pixel, instead of the picture; "
+              "class shows whether a pixel uses the light list of its tile, that of a depth slice "
+              "of its tile, or none and walks the light tree");
 }
 
 void FrameArguments::addInfluenceTo(CLI::App& command)
 {
     addChoice(command, "--influence", influence, influenceChoices,
-              "how far lights reach: as the scene gives their influence radii, or everywhere");
+              "let lights reach as far as the influence radii of the scene, or everywhere");
     command
-        .add_option(
-            "--influence-error", influenceError,
-            "let lights reach as far as the display can show: all light that is cut together "
-            "changes no channel by more than this share of its range, under the exposure "
-            "of the frame before")
+        .add_option("--influence-error", influenceError,
+                    "let lights reach as far as the display can show: all the light that is cut "
+                    "off changes no channel by more than this share of its range in total, at the "
+                    "exposure of the previous frame")
         ->type_name("E, such as 0.5/255 or 0.002");
 }
 

@@ -291,27 +291,27 @@ void addProfileCommand(CLI::App& app, Run& run)
     a->scene.addLightsTo(*command);
     command
         ->add_option("--frames", a->frames,
-                     "number of frames to measure, after warm-up frames until times are stable (at "
-                     "most 24, or as --warm-up says)")
+                     "number of frames to measure; warm-up frames come first, until the times are "
+                     "stable (at most 24, or as --warm-up says)")
         ->type_name("N")
         ->capture_default_str();
     addWarmUpTo(*command, a->warmUp);
     command
         ->add_option("--frames-in-flight", a->framesInFlight,
-                     "frames that the CPU records before it waits for the oldest of them; with 1 "
-                     "the GPU is idle between frames, and the clock of some GPUs drops")
+                     "number of frames that the CPU records before it waits for the oldest; with 1 "
+                     "the GPU is idle between frames, and some GPUs lower their clock")
         ->type_name("N")
         ->capture_default_str();
     command
         ->add_option("--path", a->path,
-                     "path of the camera: still, or turn, once around the vertical in all frames")
+                     "path of the camera over all frames: still, or turn, which turns once around "
+                     "the vertical")
         ->type_name("NAME")
         ->capture_default_str();
     command
-        ->add_option(
-            "--ab", a->ab,
-            "compare two variants of the frame, given as two texts of options: their frames "
-            "are drawn alternately, and each pass gets a ratio with a 95% interval")
+        ->add_option("--ab", a->ab,
+                     "compare two variants of the frame, each given as one string of options; "
+                     "their frames alternate, and each pass gets a ratio with a 95% interval")
         ->type_name("OPTIONS OPTIONS")
         ->type_size(2); // so that texts may begin with dashes
     command
@@ -319,14 +319,13 @@ void addProfileCommand(CLI::App& app, Run& run)
                      "CSV file with all times, one line per frame; - is standard output")
         ->type_name("FILE");
     command
-        ->add_option(
-            "--light-costs", a->lightCosts,
-            "list the N lights that take most of the shading time, with the pixels that they "
-            "cover and the pairs evaluated for them")
+        ->add_option("--light-costs", a->lightCosts,
+                     "list the N lights that take the most shading time, with the pixels that they "
+                     "cover and the pairs of light and pixel that are evaluated for them")
         ->type_name("N");
     command
         ->add_option("--trace", a->trace,
-                     "trace file with all measured frames, CPU and GPU on one time axis, for "
+                     "trace file of all measured frames, with CPU and GPU on one time axis, for "
                      "ui.perfetto.dev or chrome://tracing; - is standard output")
         ->type_name("FILE");
     command
@@ -335,20 +334,21 @@ void addProfileCommand(CLI::App& app, Run& run)
                      "output")
         ->type_name("FILE");
     command->add_flag("--append", a->append,
-                      "add this run to those in the file of --json, for candelabra compare");
+                      "add this run to the runs in the --json file, for candelabra compare");
     a->frame.addTo(*command);
     a->frame.addCullingTo(*command);
     a->frame.addInfluenceTo(*command);
     a->device.addTo(*command);
-    command->footer("By default frames are drawn one at a time: each is waited for before the next "
-                    "begins. Times of passes are the GPU's.\n\n"
-                    "Examples:\n"
-                    "  candelabra profile hall --lights 16000\n"
-                    "  candelabra profile hall --path turn --frames 120 --csv frames.csv\n"
-                    "  candelabra profile hall --warm-up 2 --frames-in-flight 2 --frames 200\n"
-                    "  candelabra profile hall --light-costs 20\n"
-                    "  candelabra profile hall --frames 20 --trace trace.json\n"
-                    "  candelabra profile hall --ab '--specular karis' '--specular conic'");
+    command->footer(
+        "By default, frames are drawn one at a time: each one ends before the next begins.\n"
+        "Times of passes are GPU times.\n\n"
+        "Examples:\n"
+        "  candelabra profile hall --lights 16000\n"
+        "  candelabra profile hall --path turn --frames 120 --csv frames.csv\n"
+        "  candelabra profile hall --warm-up 2 --frames-in-flight 2 --frames 200\n"
+        "  candelabra profile hall --light-costs 20\n"
+        "  candelabra profile hall --frames 20 --trace trace.json\n"
+        "  candelabra profile hall --ab '--specular karis' '--specular conic'");
     command->callback(
         [&run, a] { run = [a](const ProgramContext& program) { return profile(program, *a); }; });
 }

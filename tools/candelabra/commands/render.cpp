@@ -332,25 +332,24 @@ int render(const ProgramContext& program, const RenderArguments& a)
 void addPictureOptions(CLI::App& command, RenderArguments& a)
 {
     command
-        .add_option("--aa", a.samples,
-                    "anti-aliasing: a frame is the mean of N samples, each lit anew and shifted "
-                    "by a part of a pixel; linear files get the mean of radiance, pictures that of "
-                    "the light on the display; auto: 16 for pictures on a GPU; "
-                    "1 on a CPU, with several --frames that are only timed, with --edge-filter, "
-                    "--debug and --influence-error")
+        .add_option(
+            "--aa", a.samples,
+            "anti-aliasing: a frame is the mean of N samples, each shifted by part of a pixel and "
+            "lit again; linear files get the mean radiance, pictures the mean light of the "
+            "display; auto is 16 for pictures on a GPU, and 1 on a CPU, for several --frames that "
+            "are only timed, and with --edge-filter, --debug or --influence-error")
         ->type_name("N|auto")
         ->capture_default_str();
     command
-        .add_option(
-            "--bloom", a.bloom,
-            "share of the light, 0 to 1, that is spread over the picture as an eye scatters "
-            "it, so that lamps look bright; 0.04 to 0.2 look natural; linear files have "
-            "none of it, and exposure is metered without it")
+        .add_option("--bloom", a.bloom,
+                    "share of the light, 0 to 1, that is spread over the picture as an eye "
+                    "scatters it, to make lamps look bright; 0.04 to 0.2 look natural; linear "
+                    "files and the metering of exposure leave it out")
         ->type_name("SHARE")
         ->capture_default_str();
     command.add_flag("--edge-filter", a.edgeFilter,
-                     "smooth the edges of pictures of one sample per pixel, in a small part of "
-                     "the time that --aa takes; linear files keep their edges");
+                     "smooth the edges of pictures with one sample per pixel, in a fraction of the "
+                     "time of --aa; linear files keep their edges");
 }
 
 } // namespace
@@ -370,20 +369,20 @@ void addRenderCommand(CLI::App& app, Run& run)
     command
         ->add_option("--frames", a->frames,
                      "number of frames to render and time, after a warm-up frame like the first "
-                     "(1); -o with a place for their number, such as f.%04d.png, writes all of "
-                     "them, any other -o the last")
+                     "(1); -o writes all of them if its name has a place for their number, such as "
+                     "f.%04d.png, and otherwise only the last")
         ->type_name("N");
     addPictureOptions(*command, *a);
     command
         ->add_option("--path", a->path,
-                     "path of the camera: still; turn, once around the vertical in all frames; or "
-                     "a text file with a camera per line, each as for --camera, through which it "
-                     "moves in all frames")
+                     "path of the camera over all frames: still; turn, which turns once around the "
+                     "vertical; or a text file with one camera per line, written as for --camera, "
+                     "which the camera passes through")
         ->type_name("NAME|FILE")
         ->capture_default_str();
     command
         ->add_option("--fps", a->fps,
-                     "frames per second, for lights that move and for eyes that adapt")
+                     "frames per second, for moving lights and for the adaptation of the eye")
         ->type_name("N")
         ->capture_default_str();
     command->add_option("--time", a->time, "scene time of the first frame in seconds, for --moving")
@@ -396,12 +395,12 @@ void addRenderCommand(CLI::App& app, Run& run)
     command
         ->add_option(
             "--pick", a->pick,
-            "list the lights of the pixel X,Y, counted from the left and the top, with what "
-            "each contributes and its error against the truth in double precision")
+            "list the lights of the pixel X,Y, counted from the left and the top, with the "
+            "contribution of each and its error against the reference in double precision")
         ->type_name("X,Y");
     command->add_flag(
         "--explain", a->explain,
-        "list the passes that the last frame ran, and why the others had nothing to do");
+        "list the passes that the last frame ran, and explain why the others had nothing to do");
     a->frame.addTo(*command);
     a->frame.addFitTo(*command);
     a->frame.addCullingTo(*command);

@@ -467,25 +467,25 @@ int report(const ProgramContext& program, const ReportArguments& a)
 void addReportCommand(CLI::App& app, Run& run)
 {
     CLI::App* command = app.add_subcommand(
-        "report", "Make the main measurements in a short form, and one HTML page of the results");
+        "report",
+        "Run short forms of the main measurements, and write one HTML page of the results");
     const auto a = std::make_shared<ReportArguments>();
     const auto add = [&](const char* name, std::string& value, const char* what, const char* type) {
         command->add_option(name, value, what)->type_name(type)->capture_default_str();
     };
     add("--out", a->directory, "directory for index.html and report.json", "DIR");
     add("--parts", a->parts, "parts to measure, in this order", "NAME,...");
-    add("--lights", a->lights, "number of lights of the frame that is profiled", "N");
+    add("--lights", a->lights, "number of lights in the profiled frame", "N");
     add("--size", a->size, "image size of that frame", "WxH");
-    add("--frames", a->frames, "number of times it is drawn", "N");
+    add("--frames", a->frames, "number of times to draw that frame", "N");
     add("--committed", a->committed,
-        "folder of results of the same device to compare with, as CSV files of "
-        "tools/update_results; "
-        "by default tools/bench/results, if it is there",
+        "folder with CSV files from tools/update_results, of the same device, to compare with; "
+        "default: tools/bench/results, if it exists",
         "DIR");
     a->device.addTo(*command);
     command->footer(
-        "The page begins with the result in five sentences. Under every part is the command "
-        "with which it can be made again.\n\n"
+        "The page begins with five sentences that give the result. Under every part is the\n"
+        "command that repeats it.\n\n"
         "Examples:\n"
         "  candelabra report\n"
         "  candelabra report --parts profile,culling --lights 16000 --out out/culling");

@@ -151,43 +151,47 @@ int stress(const ProgramContext& program, const StressArguments& a)
 
 void addStressCommand(CLI::App& app, Run& run)
 {
-    CLI::App* command = app.add_subcommand(
-        "stress", "Time and check a sweep over light counts; pictures, plot and figures");
+    CLI::App* command =
+        app.add_subcommand("stress", "Time and check frames with growing numbers of lights; write "
+                                     "pictures, a plot and all figures");
     const auto a = std::make_shared<StressArguments>();
     a->scene.addTo(*command, "hall");
     command->add_option("--lights", a->lights, "light counts to measure")
         ->type_name("N,N,...")
         ->capture_default_str();
-    command->add_option("--frames", a->frames, "measured frames per count, after 2 to warm up")
+    command
+        ->add_option("--frames", a->frames, "frames to measure per count, after 2 warm-up frames")
         ->type_name("N")
         ->capture_default_str();
     addWarmUpTo(*command, a->warmUp);
     command
         ->add_option("--check", a->check,
-                     "pixels compared with brute force: auto (all up to 16384 lights, beyond "
-                     "that sampled tiles), sampled (fewer tiles, for a quick look), full, or none, "
-                     "which also leaves out the second run")
+                     "pixels to compare with brute force: auto (all pixels up to 16384 lights, and "
+                     "sampled tiles above), sampled (fewer tiles, for a quick look), full, or "
+                     "none, which also skips the second run")
         ->type_name("NAME")
         ->capture_default_str();
-    command->add_option("--out", a->directory, "directory for everything; made if missing")
+    command
+        ->add_option("--out", a->directory,
+                     "directory for all output; it is created if it does not exist")
         ->type_name("DIR")
         ->capture_default_str();
     command
         ->add_option("--json", a->json,
-                     "file of all figures (DIR/stress.json); - is standard "
-                     "output")
+                     "JSON file with all figures (DIR/stress.json); - is standard output")
         ->type_name("FILE");
     a->frame.size = "1280x720";
     a->frame.addTo(*command);
     command->get_option("--size")->description("image size in pixels")->capture_default_str();
     a->frame.addReuseTo(*command, Reuse::None);
     a->device.addTo(*command);
-    command->footer("Exit code 1 when clustered lighting differs from brute force by more than "
-                    "1e-6 of\nthe largest radiance, or when two runs differ in any bit.\n\n"
-                    "Examples:\n"
-                    "  candelabra stress\n"
-                    "  candelabra stress field --lights 1000,10000,100000 --overlaps 12\n"
-                    "  candelabra stress --size 1920x1080 --frames 100 --check none --json t.json");
+    command->footer(
+        "The exit code is 1 if clustered lighting differs from brute force by more than 1e-6\n"
+        "of the largest radiance, or if two runs differ in any bit.\n\n"
+        "Examples:\n"
+        "  candelabra stress\n"
+        "  candelabra stress field --lights 1000,10000,100000 --overlaps 12\n"
+        "  candelabra stress --size 1920x1080 --frames 100 --check none --json t.json");
     command->callback(
         [&run, a] { run = [a](const ProgramContext& program) { return stress(program, *a); }; });
 }

@@ -190,10 +190,9 @@ void addTruthCommand(CLI::App& app, Run& run)
     const auto a = std::make_shared<TruthArguments>();
     command->add_option("scene", a->scene, "a scene .json file")->type_name("SCENE");
     command
-        ->add_option(
-            "-o,--output", a->output,
-            "image file of linear scene radiance (cd/m^2): .exr, .hdr or .pfm; with --shard a "
-            "file for --merge, of any name")
+        ->add_option("-o,--output", a->output,
+                     "image file for linear scene radiance (cd/m^2): .exr, .hdr or .pfm; with "
+                     "--shard, a file with any name for --merge")
         ->type_name("FILE");
     command
         ->add_option("--tolerance", a->tolerance,
@@ -202,13 +201,12 @@ void addTruthCommand(CLI::App& app, Run& run)
         ->capture_default_str();
     a->frame.addViewTo(*command);
     a->lobes.addTo(*command);
-    command->add_option("--threads", a->threads, "number of threads; default: one for every core")
+    command->add_option("--threads", a->threads, "number of threads; default: one per core")
         ->type_name("N");
     command
-        ->add_option(
-            "--shard", a->shard,
-            "compute only every n-th row, beginning with row i, so that the n parts may run on "
-            "different machines")
+        ->add_option("--shard", a->shard,
+                     "compute only every n-th row, starting with row i, so that n machines can "
+                     "share the work")
         ->type_name("i/n");
     command
         ->add_option("--merge", a->merge,
@@ -216,16 +214,16 @@ void addTruthCommand(CLI::App& app, Run& run)
         ->type_name("FILE...");
     command
         ->add_option("--cache", a->cache,
-                     "directory in which computed truths are kept (default: candelabra/truth in "
+                     "directory that keeps computed images (default: candelabra/truth in "
                      "$XDG_CACHE_HOME or ~/.cache)")
         ->type_name("DIR");
     command->add_flag("--no-cache", a->noCache,
-                      "compute the truth even if it is in the cache, and do not store it there");
+                      "compute the image even if it is in the cache, and do not store it there");
     command->footer(
-        "Every pixel is evaluated at its centre, as `candelabra render` does. Differences between "
-        "the\n"
-        "two images are errors of the specular method; with conic they are largest where a light\n"
-        "crosses the horizon of a surface that is seen at a grazing angle.\n\n"
+        "Every pixel is evaluated at its centre, as in `candelabra render`. Differences\n"
+        "between the two images are errors of the specular method. With conic they are\n"
+        "largest where a light crosses the horizon of a surface that is seen at a grazing\n"
+        "angle.\n\n"
         "Examples:\n"
         "  candelabra truth scene.json -o truth.exr\n"
         "  candelabra truth scene.json --shard 3/8 -o part3.truth\n"

@@ -106,19 +106,21 @@ void addViewCommand(CLI::App& app, Run& run)
     a->scene.addTo(*command, "hall");
     a->scene.addLightsTo(*command);
     a->scene.addDefaultLightTo(*command);
-    command->add_option("--frames", a->frames, "stop after N frames, 1/60 s apart; 0: do not stop")
+    command
+        ->add_option("--frames", a->frames,
+                     "stop after N frames, which are 1/60 s apart; 0 means never")
         ->type_name("N")
         ->capture_default_str();
     addChoice(*command, "--while-moving", a->whileMoving, whileMovingChoices,
-              "size of the picture while the camera moves or a light is dragged; auto is half "
-              "width and height if frames take longer than 1/15 s, but full with --frames");
+              "size of the picture while you move the camera or drag a light; auto halves width "
+              "and height if frames take longer than 1/15 s, except with --frames");
     command
         ->add_option("--screenshot", a->screenshot,
-                     "PNG file for a picture of the window with the last of --frames")
+                     "PNG file for a picture of the window at the last frame of --frames")
         ->type_name("FILE");
     command->add_flag("--no-overlay", a->noOverlay, "start without the panel (F1 shows it)");
     command->add_flag("--verbose", a->verbose,
-                      "print on stderr what each key and click does, where the camera stops, and "
+                      "report on stderr what each key and click does, where the camera stops, and "
                       "when the picture is complete");
     a->frame.addTo(*command);
     a->frame.addFitTo(*command);
@@ -130,11 +132,11 @@ void addViewCommand(CLI::App& app, Run& run)
     command->footer(
         "Keys and mouse:\n" + keyHelpText() +
         "\n"
-        "The window opens at once and shows how far loading is. Shaders are compiled for the\n"
-        "first picture alone. What you choose later appears when its shaders are compiled; the\n"
-        "picture goes on meanwhile. While a scene is loaded in place of another one, both are in\n"
-        "memory, and so are old and new surfaces while the material of everything changes.\n"
-        "\n"
+        "The window opens at once and shows the progress of loading. At first, only the\n"
+        "shaders of the first picture are compiled. What you choose later appears when its\n"
+        "shaders are ready, and the picture goes on meanwhile. While one scene replaces\n"
+        "another, both are in memory. So are old and new surfaces while the material of\n"
+        "everything changes.\n\n"
         "Examples:\n"
         "  candelabra view hall --lights 4000 --moving\n"
         "  candelabra view model.glb --lights 200\n"
