@@ -230,7 +230,8 @@ def options_of_commands():
         text = subprocess.run([program, *words, "--help"], capture_output=True, text=True, check=True).stdout
         parts = re.findall(r"^  ([a-z]+) ", text.partition("Subcommands:\n")[2].partition("\n\n")[0], re.MULTILINE)
         for part in parts:
-            add([*words, part])
+            if part != "help":  # "help X --help" is "X --help"
+                add([*words, part])
         if not parts:
             options = re.findall(r"^  (?:-\w,)?(--[\w-]+)( \S)?", text, re.MULTILINE)
             found[" ".join(words)] = [(name, bool(value)) for name, value in options if name != "--help"]
