@@ -8,6 +8,7 @@
 #include <numeric>
 #include <span>
 
+#include "data/path_traced.h"
 #include "harness/gpu_fixture.h"
 #include "harness/temporary_folder.h"
 #include "render/camera.h"
@@ -20,24 +21,6 @@ using namespace candelabra::app;
 
 namespace
 {
-
-struct GreyPixel {
-    uint32_t column, row;
-    double luminance[1];
-};
-constexpr GreyPixel planeAbove[] = {
-#include "../data/s01_diffuse_plane_above.inc"
-};
-constexpr GreyPixel planeCrossing[] = {
-#include "../data/s03_diffuse_plane_cross_lo.inc"
-};
-struct ColourPixel {
-    uint32_t column, row;
-    double luminance[3];
-};
-constexpr ColourPixel dielectricGrazing[] = {
-#include "../data/s17_dielectric_grazing.inc"
-};
 
 // Returns a scene description in JSON; `object` and `lights` are JSON fragments.
 std::string sceneJson(const std::string& camera, const std::string& object,
@@ -72,10 +55,10 @@ protected:
     }
 };
 
-double meanRelativeError(const Image& image, std::span<const GreyPixel> truth)
+double meanRelativeError(const Image& image, std::span<const test::PathTracedPixel<1>> truth)
 {
     double sum = 0;
-    for (const GreyPixel& pixel : truth) {
+    for (const auto& pixel : truth) {
         const double value = image.pixels[3 * (size_t(pixel.row) * image.width + pixel.column) + 1];
         sum += std::abs(value - pixel.luminance[0]) / pixel.luminance[0];
     }
@@ -91,13 +74,13 @@ TEST_F(WholeFrame, LambertPlaneMatchesThePathTracer)
             "vertical_fov_degrees": 45, "aspect": 1})",
         ground, lambert, R"([{"position": [0, 3, 0], "radius": 0.5, "radiance": [10, 10, 10]}])"));
     const double aboveError =
-        meanRelativeError(draw(above, {256, 256}, CND_SPECULAR_KARIS), planeAbove);
+        meanRelativeError(draw(above, {256, 256}, CND_SPECULAR_KARIS), test::planeAbove);
     const Scene cut = load(sceneJson(
         R"({"position": [3.1, 4, 0], "look_at": [3.1, 0, 0], "up": [0, 0, -1],
             "vertical_fov_degrees": 56, "aspect": 1})",
         ground, lambert, R"([{"position": [0, -0.4, 0], "radius": 1, "radiance": [10, 10, 10]}])"));
     const double cutError =
-        meanRelativeError(draw(cut, {256, 256}, CND_SPECULAR_KARIS), planeCrossing);
+        meanRelativeError(draw(cut, {256, 256}, CND_SPECULAR_KARIS), test::planeCrossing);
     std::cout << "mean relative error to the path tracer: above " << aboveError << ", cut by the "
               << "plane " << cutError << "\n";
     // The bound is 0.3% plus 0.8 times the reference's own rms noise (0.0278% and 0.446%).
@@ -116,14 +99,14 @@ TEST_F(WholeFrame, ConicMatchesThePathTracer)
         R"([{"position": [0.5, 1.2, -3], "radius": 0.4, "radiance": [10, 10, 10]}])"));
     const Image image = draw(scene, {256, 256}, CND_SPECULAR_CONIC);
     double sum = 0, squares = 0;
-    for (const ColourPixel& pixel : dielectricGrazing)
+    for (const auto& pixel : test::dielectricGrazing)
         for (uint32_t c = 0; c < 3; ++c) {
             const size_t at = 3 * (size_t(pixel.row) * image.width + pixel.column) + c;
             const double error = image.pixels[at] / pixel.luminance[c] - 1;
             sum += std::abs(error);
             squares += error * error;
         }
-    const double count = 3 * double(std::size(dielectricGrazing));
+    const double count = 3 * double(std::size(test::dielectricGrazing));
     std::cout << "conic to the path tracer: mean relative error " << sum / count << ", relMSE "
               << squares / count << " (the path tracer's noise: 0.0052 rms, 2.7e-5)\n";
     // Measured 0.0041 and 6.0e-5.

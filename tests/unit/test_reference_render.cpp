@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "data/path_traced.h"
 #include "reference/brdf.h"
 #include "reference/render.h"
 #include "reference/sphere_light.h"
@@ -20,26 +21,6 @@ using namespace candelabra::reference;
 
 namespace
 {
-
-struct GreyPixel {
-    uint32_t column, row;
-    double luminance[1];
-};
-
-struct ColorPixel {
-    uint32_t column, row;
-    double luminance[3];
-};
-
-constexpr GreyPixel planeAbove[] = {
-#include "../data/s01_diffuse_plane_above.inc"
-};
-constexpr GreyPixel planeCrossing[] = {
-#include "../data/s03_diffuse_plane_cross_lo.inc"
-};
-constexpr ColorPixel grazing[] = {
-#include "../data/s17_dielectric_grazing.inc"
-};
 
 constexpr double radiansPerDegree = std::numbers::pi / 180;
 constexpr uint32_t size = 256;
@@ -56,10 +37,10 @@ Scene planeScene(const glm::dvec3& eye, const glm::dvec3& target, const glm::dve
 }
 
 // Returns the mean of |candidate - truth| / truth over the lit pixels.
-double meanRelativeError(const Image& image, std::span<const GreyPixel> truth)
+double meanRelativeError(const Image& image, std::span<const PathTracedPixel<1>> truth)
 {
     double sum = 0;
-    for (const GreyPixel& pixel : truth) {
+    for (const auto& pixel : truth) {
         const double expected = pixel.luminance[0];
         sum += std::abs(image.at(pixel.column, pixel.row).g - expected) / expected;
     }
@@ -103,7 +84,7 @@ TEST(ReferenceRender, integratedBrdfMatchesThePathTracer)
     const double f0 = 0.04, alpha = 0.1, radius = 0.4, luminance = 10;
     const Scene scene = planeScene({0, 0.5, 3}, {0, 0, 0.6476849452607727}, {0, 1, 0}, 20);
     double sum = 0;
-    for (const ColorPixel& pixel : grazing) {
+    for (const auto& pixel : dielectricGrazing) {
         const auto hit = tracePixel(scene, size, size, pixel.column, pixel.row);
         ASSERT_TRUE(hit);
         const SurfacePoint& surface = hit->surface;
@@ -119,7 +100,7 @@ TEST(ReferenceRender, integratedBrdfMatchesThePathTracer)
         for (int i = 0; i < 3; ++i)
             sum += std::abs(luminance * value[i] / pixel.luminance[i] - 1);
     }
-    const double error = sum / (3 * std::size(grazing));
+    const double error = sum / (3 * std::size(dielectricGrazing));
     RecordProperty("meanRelativeError", std::to_string(error));
     EXPECT_LE(error, acceptedError(0.0052));
 }

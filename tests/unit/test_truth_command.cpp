@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include <unistd.h>
 
 #include "cli.h"
+#include "data/path_traced.h"
 #include "io/image.h"
 #include "truth/reference_scene.h"
 #include "truth/truth_cache.h"
@@ -24,14 +24,6 @@ using namespace candelabra::app;
 
 namespace
 {
-
-struct ColourPixel {
-    uint32_t column, row;
-    double luminance[3];
-};
-constexpr ColourPixel grazing[] = {
-#include "../data/s17_dielectric_grazing.inc"
-};
 
 constexpr const char* dielectric = R"({"camera": {"position": [0, 0.5, 3],
     "look_at": [0, 0, 0.6476849452607727], "up": [0, 1, 0], "vertical_fov_degrees": 20,
@@ -88,7 +80,7 @@ TEST_F(TruthCommand, MatchesThePathTracer)
     const Scene scene = loadSceneJson(path("scene.json"));
     const reference::Scene model = toReference(scene, scene.cameras[0], 1, false);
     std::vector<uint32_t> rows;
-    for (const ColourPixel& pixel : grazing)
+    for (const auto& pixel : test::dielectricGrazing)
         if (rows.empty() || rows.back() != pixel.row)
             rows.push_back(pixel.row);
     if (rows.size() > 24) // takes half a second on one core
@@ -96,7 +88,7 @@ TEST_F(TruthCommand, MatchesThePathTracer)
     const reference::TruthRows truth = reference::renderTruth(model, 256, 256, rows, {});
     double sum = 0, squares = 0;
     int count = 0;
-    for (const ColourPixel& pixel : grazing)
+    for (const auto& pixel : test::dielectricGrazing)
         for (size_t i = 0; i < rows.size(); ++i)
             if (rows[i] == pixel.row)
                 for (int c = 0; c < 3; ++c) {

@@ -10,7 +10,7 @@ namespace candelabra::app
 namespace
 {
 
-constexpr float rows[][5] = {
+constexpr double rows[][5] = {
 #include "measure/kernels/ltc_table.inc"
 };
 static_assert(std::size(rows) == gpu::LTC_TABLE_SIZE * gpu::LTC_TABLE_SIZE);
