@@ -105,8 +105,8 @@ void destroyHostDevice(Host* host)
     vkDestroyInstance(host->instance, NULL);
 }
 
-VkDeviceMemory allocateHostMemory(const Host* host, VkMemoryRequirements needs,
-                                  VkMemoryPropertyFlags flags)
+static VkDeviceMemory allocateMemory(const Host* host, VkMemoryRequirements needs,
+                                     VkMemoryPropertyFlags flags)
 {
     VkPhysicalDeviceMemoryProperties memory;
     vkGetPhysicalDeviceMemoryProperties(host->physicalDevice, &memory);
@@ -123,6 +123,27 @@ VkDeviceMemory allocateHostMemory(const Host* host, VkMemoryRequirements needs,
     VkDeviceMemory result;
     VK(vkAllocateMemory(host->device, &info, NULL, &result));
     return result;
+}
+
+HostBuffer createHostBuffer(const Host* host, VkDeviceSize size, VkBufferUsageFlags usage)
+{
+    HostBuffer result;
+    const VkBufferCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = size, .usage = usage};
+    VK(vkCreateBuffer(host->device, &info, NULL, &result.buffer));
+    VkMemoryRequirements needs;
+    vkGetBufferMemoryRequirements(host->device, result.buffer, &needs);
+    result.memory = allocateMemory(
+        host, needs, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
+    VK(vkBindBufferMemory(host->device, result.buffer, result.memory, 0));
+    VK(vkMapMemory(host->device, result.memory, 0, VK_WHOLE_SIZE, 0, &result.mapped));
+    return result;
+}
+
+void destroyHostBuffer(const Host* host, HostBuffer buffer)
+{
+    vkDestroyBuffer(host->device, buffer.buffer, NULL);
+    vkFreeMemory(host->device, buffer.memory, NULL);
 }
 
 HostImage createHostImage(const Host* host, VkFormat format, uint32_t width, uint32_t height,
@@ -143,7 +164,7 @@ HostImage createHostImage(const Host* host, VkFormat format, uint32_t width, uin
     VK(vkCreateImage(host->device, &image, NULL, &result.image));
     VkMemoryRequirements needs;
     vkGetImageMemoryRequirements(host->device, result.image, &needs);
-    result.memory = allocateHostMemory(host, needs, 0);
+    result.memory = allocateMemory(host, needs, 0);
     VK(vkBindImageMemory(host->device, result.image, result.memory, 0));
     const VkImageViewCreateInfo view = {.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
                                         .image = result.image,
@@ -280,42 +301,36 @@ void drawWall(Host* host)
     imageBarrier(host->cmd, &host->depth, cleared, sampledInCompute);
 }
 
-static void readRegion(Host* host, const HostImage* image, ImageUse written, VkOffset3D offset,
-                       VkExtent3D extent, void* pixels, size_t size)
+void copyToHost(VkCommandBuffer cmd, const HostImage* image, VkOffset3D offset, VkExtent3D extent,
+                const HostBuffer* buffer)
 {
-    const VkBufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
-                                     .size = size,
-                                     .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT};
-    VkBuffer buffer;
-    VK(vkCreateBuffer(host->device, &info, NULL, &buffer));
-    VkMemoryRequirements needs;
-    vkGetBufferMemoryRequirements(host->device, buffer, &needs);
-    const VkDeviceMemory memory = allocateHostMemory(
-        host, needs, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
-    VK(vkBindBufferMemory(host->device, buffer, memory, 0));
-
-    const ImageUse copied = {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT,
-                             VK_ACCESS_2_TRANSFER_READ_BIT};
     const VkBufferImageCopy region = {
         .imageSubresource = {image->aspect, 0, 0, 1}, .imageOffset = offset, .imageExtent = extent};
     const VkMemoryBarrier2 toHost = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                     .srcStageMask = copied.stage,
+                                     .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
                                      .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
                                      .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
                                      .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
     const VkDependencyInfo dependency = {.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
                                          .memoryBarrierCount = 1,
                                          .pMemoryBarriers = &toHost};
+    vkCmdCopyImageToBuffer(cmd, image->image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer->buffer,
+                           1, &region);
+    vkCmdPipelineBarrier2(cmd, &dependency);
+}
+
+static void readRegion(Host* host, const HostImage* image, ImageUse written, VkOffset3D offset,
+                       VkExtent3D extent, void* pixels, size_t size)
+{
+    const HostBuffer buffer = createHostBuffer(host, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    const ImageUse copied = {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT,
+                             VK_ACCESS_2_TRANSFER_READ_BIT};
     beginFrame(host);
     imageBarrier(host->cmd, image, written, copied);
-    vkCmdCopyImageToBuffer(host->cmd, image->image, copied.layout, buffer, 1, &region);
-    vkCmdPipelineBarrier2(host->cmd, &dependency);
+    copyToHost(host->cmd, image, offset, extent, &buffer);
     endFrame(host);
-    void* mapped;
-    VK(vkMapMemory(host->device, memory, 0, VK_WHOLE_SIZE, 0, &mapped));
-    memcpy(pixels, mapped, size);
-    vkDestroyBuffer(host->device, buffer, NULL);
-    vkFreeMemory(host->device, memory, NULL);
+    memcpy(pixels, buffer.mapped, size);
+    destroyHostBuffer(host, buffer);
 }
 
 void readPixels(Host* host, const HostImage* image, ImageUse written, void* pixels, size_t size)

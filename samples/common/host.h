@@ -20,6 +20,12 @@ typedef struct HostImage {
     VkImageAspectFlags aspect;
 } HostImage;
 
+typedef struct HostBuffer {
+    VkBuffer buffer;
+    VkDeviceMemory memory;
+    void* mapped;
+} HostBuffer;
+
 typedef struct Host {
     VkInstance instance;
     VkPhysicalDevice physicalDevice;
@@ -51,8 +57,8 @@ void destroyHostDevice(Host* host);
 HostImage createHostImage(const Host* host, VkFormat format, uint32_t width, uint32_t height,
                           VkImageUsageFlags usage);
 void destroyHostImage(const Host* host, HostImage image);
-VkDeviceMemory allocateHostMemory(const Host* host, VkMemoryRequirements needs,
-                                  VkMemoryPropertyFlags flags);
+HostBuffer createHostBuffer(const Host* host, VkDeviceSize size, VkBufferUsageFlags usage);
+void destroyHostBuffer(const Host* host, HostBuffer buffer);
 // Ends the program with a message unless `result` is VK_SUCCESS.
 void checkVulkan(VkResult result, const char* what);
 
@@ -72,6 +78,11 @@ typedef struct ImageUse {
     VkAccessFlags2 access;
 } ImageUse;
 void imageBarrier(VkCommandBuffer cmd, const HostImage* image, ImageUse from, ImageUse to);
+
+// Records a copy of a region of an image, which is a source of transfers, to a buffer that the
+// program reads when the commands have finished.
+void copyToHost(VkCommandBuffer cmd, const HostImage* image, VkOffset3D offset, VkExtent3D extent,
+                const HostBuffer* buffer);
 
 // Copies all pixels of an image to `pixels`, `size` bytes in total, rows from the top. Call it
 // after endFrame().

@@ -3,8 +3,7 @@
 #ifndef CANDELABRA_SAMPLES_BALL_H
 #define CANDELABRA_SAMPLES_BALL_H
 
-#include <candelabra/candelabra.h>
-#include <vulkan/vulkan.h>
+#include "host.hpp"
 
 struct Ball {
     float centre[3], radius; // view space, metres
@@ -16,13 +15,8 @@ struct Ball {
     float perceptualRoughness;
 };
 
-struct BallPass {
-    VkPipelineLayout layout;
-    VkPipeline pipeline;
-};
-
-// `lights`: the layout of descriptor set 0, from cndGetForwardSetLayout.
-BallPass createBallPass(VkDevice device, VkDescriptorSetLayout lights);
-void destroyBallPass(VkDevice device, const BallPass& pass);
+// The pipeline of the transparent pass. `lights`: the layout of descriptor set 0, from
+// cndGetForwardSetLayout.
+Raster createBallPass(VkDevice device, VkDescriptorSetLayout lights);
 
 #endif

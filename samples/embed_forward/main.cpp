@@ -6,28 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <span>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
-#include <candelabra/candelabra.hpp>
-
 #include "ball.h"
-#include "host.h"
 #include "picture.h"
-
-template <typename T>
-T orExit(candelabra::Result<T> result)
-{
-    if (!result) {
-        std::fprintf(stderr, "%s\n", result.error().message);
-        std::exit(2);
-    }
-    if constexpr (!std::is_void_v<T>)
-        return std::move(result.value());
-}
 
 // The camera is at the origin and looks down -z, so view space is the lights' space.
 constexpr CndLight lamp(float x, float y, float z, float red, float green, float blue)
@@ -49,48 +31,25 @@ constexpr Ball balls[] = {
     {{0.55f, -0.05f, -1.5f}, 0.25f, {0.05f, 0.05f, 0.1f}, 0.5f, 0.6f, 1, 0.4f}};
 constexpr const Ball& mattBall = balls[1];
 
-constexpr ImageUse lit{VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                       VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
-constexpr ImageUse blended{
-    VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
-    VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
-
 // Draws the balls from far to near, after the lighting of the opaque surfaces.
-void drawBalls(Host& host, const BallPass& pass, VkDescriptorSet lights)
+void drawBalls(Host& host, const Raster& pass, VkDescriptorSet lights)
 {
     const VkCommandBuffer cmd = host.cmd;
-    imageBarrier(cmd, &host.radiance, lit, blended);
-    imageBarrier(
-        cmd, &host.depth,
-        {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, 0},
-        {VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL,
-         VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
-         VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT});
-    const VkRenderingAttachmentInfo colour{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
-                                           .imageView = host.radiance.view,
-                                           .imageLayout = blended.layout,
-                                           .loadOp = VK_ATTACHMENT_LOAD_OP_LOAD,
-                                           .storeOp = VK_ATTACHMENT_STORE_OP_STORE};
-    const VkRenderingAttachmentInfo depth{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
-                                          .imageView = host.depth.view,
-                                          .imageLayout = VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL,
-                                          .loadOp = VK_ATTACHMENT_LOAD_OP_LOAD,
-                                          .storeOp = VK_ATTACHMENT_STORE_OP_NONE};
-    const VkRect2D all{{0, 0}, {host.width, host.height}};
-    const VkRenderingInfo rendering{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
-                                    .renderArea = all,
-                                    .layerCount = 1,
-                                    .colorAttachmentCount = 1,
-                                    .pColorAttachments = &colour,
-                                    .pDepthAttachment = &depth};
-    const VkViewport viewport{0, 0, float(host.width), float(host.height), 0, 1};
+    constexpr ImageUse depthRead{VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL,
+                                 VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT |
+                                     VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
+                                 VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT};
+    imageBarrier(cmd, &host.radiance, storageWrite, colourAttachment);
+    imageBarrier(cmd, &host.depth, sampledRead, depthRead);
+    const VkRenderingAttachmentInfo colour =
+        attachment(host.radiance, colourAttachment.layout, VK_ATTACHMENT_LOAD_OP_LOAD,
+                   VK_ATTACHMENT_STORE_OP_STORE);
+    beginRaster(cmd, pass, {host.width, host.height}, {&colour, 1},
+                attachment(host.depth, depthRead.layout, VK_ATTACHMENT_LOAD_OP_LOAD,
+                           VK_ATTACHMENT_STORE_OP_NONE));
     const float invImageSize[] = {1 / float(host.width), 1 / float(host.height)};
-    vkCmdBeginRendering(cmd, &rendering);
-    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pass.pipeline);
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pass.layout, 0, 1, &lights, 0,
                             nullptr);
-    vkCmdSetViewport(cmd, 0, 1, &viewport);
-    vkCmdSetScissor(cmd, 0, 1, &all);
     vkCmdPushConstants(cmd, pass.layout, VK_SHADER_STAGE_FRAGMENT_BIT, sizeof(Ball),
                        sizeof invImageSize, invImageSize);
     for (const Ball& ball : balls) {
@@ -102,32 +61,20 @@ void drawBalls(Host& host, const BallPass& pass, VkDescriptorSet lights)
 
 void drawFrame(Host& host)
 {
-    const CndDeviceDesc device{.instance = host.instance,
-                               .physicalDevice = host.physicalDevice,
-                               .device = host.device,
-                               .getInstanceProcAddr = vkGetInstanceProcAddr};
+    const CndDeviceDesc device = deviceOf(host);
     auto lighting = orExit(candelabra::Lighting::create(
         device, {.framesInFlight = 1, .forwardStages = VK_SHADER_STAGE_FRAGMENT_BIT}));
     auto view = orExit(lighting.createView({.maxWidth = host.width, .maxHeight = host.height}));
     for (const CndLight& light : lamps)
         orExit(lighting.addLight(light)); // returns an id, to change or remove the light later
-    const BallPass pass = createBallPass(host.device, orExit(lighting.forwardSetLayout()));
+    const Raster pass = createBallPass(host.device, orExit(lighting.forwardSetLayout()));
 
     const VkCommandBuffer cmd = beginFrame(&host);
     drawWall(&host);
-    orExit(view.record(cmd, {.width = host.width,
-                             .height = host.height,
-                             .camera = host.camera,
-                             .clearDepth = 0,
-                             .normalRoughness = host.normalRoughness.view,
-                             .albedo = host.albedo.view,
-                             .specular = host.specular.view,
-                             .depth = host.depth.view,
-                             .radiance = host.radiance.view,
-                             .specularMethod = CND_SPECULAR_CONIC}));
+    orExit(view.record(cmd, wallFrame(host)));
     drawBalls(host, pass, orExit(view.forwardSet(0)));
     endFrame(&host);
-    destroyBallPass(host.device, pass);
+    destroyRaster(host.device, pass);
 }
 
 struct Vec {
@@ -222,7 +169,8 @@ int main(int argc, char** argv)
     Host host = createHost(320, 200);
     drawFrame(host);
     std::vector<float> radiance(size_t(host.width) * host.height * 4);
-    readPixels(&host, &host.radiance, blended, radiance.data(), radiance.size() * sizeof(float));
+    readPixels(&host, &host.radiance, colourAttachment, radiance.data(),
+               radiance.size() * sizeof(float));
     writePicture(argc > 1 ? argv[1] : "embed_forward.ppm", &host, radiance.data(), 25);
     const bool right = isRight(host, radiance);
     destroyHost(&host);

@@ -5,31 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <type_traits>
-#include <utility>
 
-#include <candelabra/candelabra.hpp>
-
-#include "host.h"
-
-template <typename T>
-T orExit(candelabra::Result<T> result)
-{
-    if (!result) {
-        std::fprintf(stderr, "%s\n", result.error().message);
-        std::exit(2);
-    }
-    if constexpr (!std::is_void_v<T>)
-        return std::move(result.value());
-}
-
-// How compute shaders use the radiance image: lighting writes it, exposure reads it.
-constexpr ImageUse storageWrite{VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                                VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
-constexpr ImageUse sampledRead{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-                               VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                               VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
+#include "host.hpp"
 
 constexpr CndLight lamp{.type = CND_LIGHT_SPHERE,
                         .position = {0, 0, -1}, // metres, relative to the origin of the set

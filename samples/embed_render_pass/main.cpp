@@ -6,32 +6,11 @@
 // prints both values, and ends with exit code 1 when they differ.
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <type_traits>
-#include <utility>
-
-#include <candelabra/candelabra.hpp>
 
 #include "pass.h"
 
-template <typename T>
-T orExit(candelabra::Result<T> result)
-{
-    if (!result) {
-        std::fprintf(stderr, "%s\n", result.error().message);
-        std::exit(2);
-    }
-    if constexpr (!std::is_void_v<T>)
-        return std::move(result.value());
-}
-
-// How the images are used around lighting and exposure.
-constexpr ImageUse lit{VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                       VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
 constexpr ImageUse exposed{VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                            VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
-constexpr ImageUse overwritten{VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                               VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
 
 constexpr CndLight lamp{.type = CND_LIGHT_SPHERE,
                         .position = {0, 0, -1},
@@ -60,10 +39,7 @@ static CndCamera cameraOf(const Host& host)
 // Draws some frames, which reuse the same images.
 static void drawFrames(Host& host, const GBuffer& gbuffer)
 {
-    const CndDeviceDesc device{.instance = host.instance,
-                               .physicalDevice = host.physicalDevice,
-                               .device = host.device,
-                               .getInstanceProcAddr = vkGetInstanceProcAddr};
+    const CndDeviceDesc device = deviceOf(host);
     auto lighting = orExit(candelabra::Lighting::create(
         device,
         {.framesInFlight = 1,
@@ -90,8 +66,8 @@ static void drawFrames(Host& host, const GBuffer& gbuffer)
                               .radiance = gbuffer.radiance.view,
                               .specularMethod = CND_SPECULAR_NONE,
                               .lobes = CND_LOBES_SUM}));
-        imageBarrier(cmd, &gbuffer.radiance, lit, exposed);
-        imageBarrier(cmd, &host.display, overwritten, lit);
+        imageBarrier(cmd, &gbuffer.radiance, storageWrite, exposed);
+        imageBarrier(cmd, &host.display, overwritten, storageWrite);
         orExit(exposure.record(cmd, {.width = host.width,
                                      .height = host.height,
                                      .radiance = gbuffer.radiance.view,

@@ -93,82 +93,6 @@ static VkRenderPass createRenderPass(VkDevice device, const GBuffer& gbuffer)
     return pass;
 }
 
-template <size_t Count>
-static VkShaderModule createShader(VkDevice device, const uint32_t (&words)[Count])
-{
-    const VkShaderModuleCreateInfo info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                        .codeSize = sizeof words,
-                                        .pCode = words};
-    VkShaderModule shader{};
-    checkVulkan(vkCreateShaderModule(device, &info, nullptr, &shader),
-                "vkCreateShaderModule failed");
-    return shader;
-}
-
-static VkPipeline createPipeline(const Host& host, const GBufferPass& pass)
-{
-    const VkShaderModule vertex = createShader(host.device, wall_vert);
-    const VkShaderModule fragment = createShader(host.device, wall_frag);
-    const VkPipelineShaderStageCreateInfo stages[] = {
-        {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-         .stage = VK_SHADER_STAGE_VERTEX_BIT,
-         .module = vertex,
-         .pName = "main"},
-        {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-         .stage = VK_SHADER_STAGE_FRAGMENT_BIT,
-         .module = fragment,
-         .pName = "main"}};
-    const VkPipelineVertexInputStateCreateInfo input{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
-    const VkPipelineInputAssemblyStateCreateInfo assembly{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
-        .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
-    const VkViewport area{0, 0, float(host.width), float(host.height), 0, 1};
-    const VkRect2D all{{0, 0}, {host.width, host.height}};
-    const VkPipelineViewportStateCreateInfo viewport{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
-        .viewportCount = 1,
-        .pViewports = &area,
-        .scissorCount = 1,
-        .pScissors = &all};
-    const VkPipelineRasterizationStateCreateInfo raster{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO, .lineWidth = 1};
-    const VkPipelineMultisampleStateCreateInfo samples{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
-        .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT};
-    const VkPipelineDepthStencilStateCreateInfo depth{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
-        .depthTestEnable = VK_TRUE,
-        .depthWriteEnable = VK_TRUE,
-        .depthCompareOp = VK_COMPARE_OP_GREATER}; // reversed depth
-    const VkPipelineColorBlendAttachmentState written{.colorWriteMask = 0xF};
-    const VkPipelineColorBlendAttachmentState colours[colourCount] = {written, written, written};
-    const VkPipelineColorBlendStateCreateInfo blend{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
-        .attachmentCount = colourCount,
-        .pAttachments = colours};
-    const VkGraphicsPipelineCreateInfo info{.sType =
-                                                VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
-                                            .stageCount = 2,
-                                            .pStages = stages,
-                                            .pVertexInputState = &input,
-                                            .pInputAssemblyState = &assembly,
-                                            .pViewportState = &viewport,
-                                            .pRasterizationState = &raster,
-                                            .pMultisampleState = &samples,
-                                            .pDepthStencilState = &depth,
-                                            .pColorBlendState = &blend,
-                                            .layout = pass.layout,
-                                            .renderPass = pass.renderPass};
-    VkPipeline pipeline{};
-    checkVulkan(
-        vkCreateGraphicsPipelines(host.device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
-        "vkCreateGraphicsPipelines failed");
-    vkDestroyShaderModule(host.device, vertex, nullptr);
-    vkDestroyShaderModule(host.device, fragment, nullptr);
-    return pipeline;
-}
-
 GBufferPass createPass(const Host& host, const GBuffer& gbuffer)
 {
     GBufferPass pass{.renderPass = createRenderPass(host.device, gbuffer)};
@@ -184,17 +108,19 @@ GBufferPass createPass(const Host& host, const GBuffer& gbuffer)
                                               .layers = 1};
     checkVulkan(vkCreateFramebuffer(host.device, &framebuffer, nullptr, &pass.framebuffer),
                 "vkCreateFramebuffer failed");
-    const VkPipelineLayoutCreateInfo layout{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
-    checkVulkan(vkCreatePipelineLayout(host.device, &layout, nullptr, &pass.layout),
-                "vkCreatePipelineLayout failed");
-    pass.pipeline = createPipeline(host, pass);
+    const VkFormat colours[] = {gbuffer.normal.format, gbuffer.albedo.format,
+                                gbuffer.radiance.format};
+    pass.raster = createRaster(host.device, {.vertex = wall_vert,
+                                             .fragment = wall_frag,
+                                             .depthTest = VK_COMPARE_OP_GREATER, // reversed depth
+                                             .colours = colours,
+                                             .renderPass = pass.renderPass});
     return pass;
 }
 
 void destroyPass(const Host& host, const GBufferPass& pass)
 {
-    vkDestroyPipeline(host.device, pass.pipeline, nullptr);
-    vkDestroyPipelineLayout(host.device, pass.layout, nullptr);
+    destroyRaster(host.device, pass.raster);
     vkDestroyFramebuffer(host.device, pass.framebuffer, nullptr);
     vkDestroyRenderPass(host.device, pass.renderPass, nullptr);
 }
@@ -209,7 +135,7 @@ void drawPass(const Host& host, const GBufferPass& pass)
                                       .clearValueCount = 4,
                                       .pClearValues = clears};
     vkCmdBeginRenderPass(host.cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
-    vkCmdBindPipeline(host.cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pass.pipeline);
+    bindRaster(host.cmd, pass.raster, {host.width, host.height});
     vkCmdDraw(host.cmd, 3, 1, 0, 0);
     vkCmdEndRenderPass(host.cmd);
 }

@@ -2,7 +2,7 @@
 // The G-buffer pass of a renderer that draws in a VkRenderPass.
 #pragma once
 
-#include "host.h"
+#include "host.hpp"
 
 // World-space normals (half floats), colour (8 bits), radiance (half floats), depth with stencil.
 struct GBuffer {
@@ -12,8 +12,7 @@ struct GBuffer {
 struct GBufferPass {
     VkRenderPass renderPass;
     VkFramebuffer framebuffer;
-    VkPipelineLayout layout;
-    VkPipeline pipeline;
+    Raster raster;
 };
 
 GBuffer createGBuffer(const Host& host);

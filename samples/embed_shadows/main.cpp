@@ -7,27 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
-#include <candelabra/candelabra.hpp>
 #include <candelabra/compiler.hpp>
 
 #include "picture.h"
 #include "shadow_map.h"
-
-template <typename T>
-T orExit(candelabra::Result<T> result)
-{
-    if (!result) {
-        std::fprintf(stderr, "%s\n", result.error().message);
-        std::exit(2);
-    }
-    if constexpr (!std::is_void_v<T>)
-        return std::move(result.value());
-}
 
 constexpr const char* shadowTerm = R"(
 layout(set = 1, binding = 0) uniform sampler2DShadow shadowMap;
@@ -80,10 +65,7 @@ static void aim(ShadowParameters& parameters)
 
 static void drawFrames(Host& host, const ShadowMap& map)
 {
-    const CndDeviceDesc device{.instance = host.instance,
-                               .physicalDevice = host.physicalDevice,
-                               .device = host.device,
-                               .getInstanceProcAddr = vkGetInstanceProcAddr};
+    const CndDeviceDesc device = deviceOf(host);
     const auto kernels = orExit(candelabra::CompiledKernels::create(
         {.functions = CND_HOST_VISIBILITY_BIT,
          .source = shadowTerm,
@@ -105,16 +87,7 @@ static void drawFrames(Host& host, const ShadowMap& map)
         const VkCommandBuffer cmd = beginFrame(&host);
         drawShadowMap(host, map);
         drawWall(&host);
-        CndLightingFrame lit{.width = host.width,
-                             .height = host.height,
-                             .camera = host.camera,
-                             .clearDepth = 0,
-                             .normalRoughness = host.normalRoughness.view,
-                             .albedo = host.albedo.view,
-                             .specular = host.specular.view,
-                             .depth = host.depth.view,
-                             .radiance = host.radiance.view,
-                             .specularMethod = CND_SPECULAR_CONIC};
+        CndLightingFrame lit = wallFrame(host);
         // Both add to the same image. The second recording begins with a barrier for it.
         orExit(openView.record(cmd, lit));
         lit.hostSet = map.set;
@@ -196,9 +169,8 @@ int main(int argc, char** argv)
     const ShadowMap map = createShadowMap(host);
     drawFrames(host, map);
     std::vector<float> radiance(size_t(host.width) * host.height * 4);
-    constexpr ImageUse lit{VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                           VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
-    readPixels(&host, &host.radiance, lit, radiance.data(), radiance.size() * sizeof(float));
+    readPixels(&host, &host.radiance, storageWrite, radiance.data(),
+               radiance.size() * sizeof(float));
     writePicture(argc > 1 ? argv[1] : "embed_shadows.ppm", &host, radiance.data(), 25);
     const bool right = isRight(host, radiance);
     destroyShadowMap(host, map);

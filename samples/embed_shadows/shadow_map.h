@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "host.h"
+#include "host.hpp"
 
 // A bar of the window frame: a rectangle at z = frameZ.
 struct Bar {
@@ -27,14 +27,12 @@ struct ShadowParameters {
 struct ShadowMap {
     HostImage depth;
     VkSampler sampler;
-    VkBuffer buffer; // holds ShadowParameters
-    VkDeviceMemory memory;
-    ShadowParameters* parameters; // in `memory`
+    HostBuffer buffer;
+    ShadowParameters* parameters; // in `buffer`
     VkDescriptorSetLayout setLayout;
     VkDescriptorPool pool;
     VkDescriptorSet set;
-    VkPipelineLayout layout;
-    VkPipeline pipeline;
+    Raster raster;
 };
 
 ShadowMap createShadowMap(const Host& host);

@@ -44,6 +44,5 @@ public:
 
 private:
     VkDevice device_;
-    VkPipelineLayout layout_ = VK_NULL_HANDLE;
-    VkPipeline pipeline_ = VK_NULL_HANDLE;
+    Raster raster_;
 };

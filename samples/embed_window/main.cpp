@@ -10,12 +10,10 @@
 #include <cstring>
 #include <numbers>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include <GLFW/glfw3.h>
-#include <candelabra/candelabra.hpp>
 #include <glm/ext/matrix_clip_space.hpp>
 #include <glm/ext/matrix_transform.hpp>
 
@@ -24,17 +22,6 @@
 
 namespace
 {
-
-template <typename T>
-T orExit(candelabra::Result<T> result)
-{
-    if (!result) {
-        std::fprintf(stderr, "embed_window: %s\n", result.error().message);
-        std::exit(2);
-    }
-    if constexpr (!std::is_void_v<T>)
-        return std::move(result.value());
-}
 
 struct Options {
     uint64_t frames = UINT64_MAX;
@@ -168,8 +155,7 @@ void clearRadiance(VkCommandBuffer cmd, const HostImage& radiance)
                            VK_ACCESS_2_TRANSFER_WRITE_BIT};
     const VkClearColorValue black{};
     const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    imageBarrier(cmd, &radiance,
-                 {VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, 0}, cleared);
+    imageBarrier(cmd, &radiance, overwritten, cleared);
     vkCmdClearColorImage(cmd, radiance.image, cleared.layout, &black, 1, &all);
     imageBarrier(cmd, &radiance, cleared, storageInCompute);
 }
@@ -202,7 +188,7 @@ void light(const Window::Frame& frame, Targets& targets, candelabra::Exposure& e
         return;
     }
     orExit(targets.view.record(frame.cmd, surfaces));
-    imageBarrier(frame.cmd, &g.radiance, storageInCompute, sampledInCompute);
+    imageBarrier(frame.cmd, &g.radiance, storageInCompute, sampledRead);
     orExit(exposure.record(frame.cmd, {.frameSlot = frame.slot,
                                        .width = targets.size.width,
                                        .height = targets.size.height,
@@ -224,10 +210,7 @@ int main(int argc, char** argv)
     Boxes boxes(host);
     Panel panel(window);
 
-    const CndDeviceDesc device{.instance = host.instance,
-                               .physicalDevice = host.physicalDevice,
-                               .device = host.device,
-                               .getInstanceProcAddr = vkGetInstanceProcAddr};
+    const CndDeviceDesc device = deviceOf(host);
     auto lighting = orExit(candelabra::Lighting::create(device, {.framesInFlight = framesInFlight,
                                                                  .gbufferLayout = CND_GBUFFER_HOST,
                                                                  .gbuffer = gbufferDesc}));

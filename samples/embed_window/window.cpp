@@ -220,36 +220,15 @@ void Window::end(const Frame& frame)
 void Window::copyTo(const Frame& frame, const std::string& file)
 {
     copyFile_ = file;
-    const VkBufferCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
-                                  .size = VkDeviceSize(size_.width) * size_.height * 4,
-                                  .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT};
-    checkVulkan(vkCreateBuffer(host_.device, &info, nullptr, &copy_), "creating a buffer");
-    VkMemoryRequirements needs;
-    vkGetBufferMemoryRequirements(host_.device, copy_, &needs);
-    copyMemory_ = allocateHostMemory(
-        &host_, needs, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
-    checkVulkan(vkBindBufferMemory(host_.device, copy_, copyMemory_, 0), "binding memory");
-    const VkBufferImageCopy copy{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                                 .imageExtent = {size_.width, size_.height, 1}};
-    vkCmdCopyImageToBuffer(frame.cmd, frame.target.image, copySource.layout, copy_, 1, &copy);
-    const VkMemoryBarrier2 toHost{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                  .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
-                                  .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                                  .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
-                                  .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
-    const VkDependencyInfo dependency{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                      .memoryBarrierCount = 1,
-                                      .pMemoryBarriers = &toHost};
-    vkCmdPipelineBarrier2(frame.cmd, &dependency);
+    copy_ = createHostBuffer(&host_, VkDeviceSize(size_.width) * size_.height * 4,
+                             VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    copyToHost(frame.cmd, &frame.target, {}, {size_.width, size_.height, 1}, &copy_);
 }
 
 void Window::writeCopy()
 {
     vkDeviceWaitIdle(host_.device);
-    void* mapped = nullptr;
-    checkVulkan(vkMapMemory(host_.device, copyMemory_, 0, VK_WHOLE_SIZE, 0, &mapped),
-                "mapping the screenshot");
-    const auto* texel = static_cast<const unsigned char*>(mapped);
+    const auto* texel = static_cast<const unsigned char*>(copy_.mapped);
     std::FILE* file = std::fopen(copyFile_.c_str(), "wb");
     if (!file)
         stop(("cannot write " + copyFile_).c_str());
@@ -261,7 +240,6 @@ void Window::writeCopy()
     }
     if (std::fclose(file) != 0)
         stop(("cannot write " + copyFile_).c_str());
-    vkDestroyBuffer(host_.device, copy_, nullptr);
-    vkFreeMemory(host_.device, copyMemory_, nullptr);
+    destroyHostBuffer(&host_, copy_);
     copyFile_.clear();
 }

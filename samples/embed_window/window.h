@@ -6,24 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "host.h"
+#include "host.hpp"
 
 struct GLFWwindow;
 
 constexpr uint32_t framesInFlight = 2;
 
 // Layout, stage and access of images at the places where they are used.
-constexpr ImageUse unused{VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_NONE, 0};
-constexpr ImageUse colourAttachment{
-    VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
-    VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
-constexpr ImageUse depthAttachment{
-    VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
-    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
-    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
-constexpr ImageUse sampledInCompute{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-                                    VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                                    VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
 constexpr ImageUse storageInCompute{VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                                     VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
                                         VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
@@ -88,6 +77,5 @@ private:
     bool stale_ = false; // the swapchain must be recreated
 
     std::string copyFile_; // empty: no copy is pending
-    VkBuffer copy_ = VK_NULL_HANDLE;
-    VkDeviceMemory copyMemory_ = VK_NULL_HANDLE;
+    HostBuffer copy_{};
 };
