@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <tuple>
 
 #include "scene/polygons.h"
 
@@ -389,7 +391,7 @@ static uint32_t shadingOf(const CndLightingFrame& frame)
            (frame.countPairs && !brute ? CND_SHADING_COUNT_PAIRS_BIT : 0);
 }
 
-CndLighting LightingTest::lightingFor(const RunOptions& options)
+CndLighting LightingTest::createFor(const RunOptions& options)
 {
     const CndLightingDesc desc{.structSize = sizeof desc,
                                .framesInFlight = runFramesInFlight,
@@ -411,16 +413,22 @@ CndLighting LightingTest::lightingFor(const RunOptions& options)
     return lighting;
 }
 
-CndLighting LightingTest::sharedLighting(const RunOptions& options)
+CndLighting LightingTest::lightingFor(const RunOptions& options)
 {
-    return shared_.emplace_back(lightingFor(options));
-}
-
-void LightingTest::TearDown()
-{
-    for (const CndLighting lighting : shared_)
-        cndDestroyLighting(lighting);
-    GpuTest::TearDown();
+    if (!shares(options))
+        return createFor(options);
+    static std::map<std::tuple<CndGBufferLayout, bool, bool>, CndLighting> shared;
+    if (shared.empty())
+        destroyAfterTests([] {
+            for (const auto& [description, lighting] : shared)
+                cndDestroyLighting(lighting);
+        });
+    const auto [found, isNew] =
+        shared.try_emplace({options.layout, options.diffuseOnlyTiles,
+                            options.influence.rule == CND_INFLUENCE_BY_ERROR});
+    if (isNew)
+        found->second = createFor(options);
+    return found->second;
 }
 
 LightingResult LightingTest::run(const CpuGBuffer& g, const std::vector<CndLight>& lights,
@@ -463,7 +471,7 @@ LightingResult LightingTest::run(const CpuGBuffer& g, const std::vector<CndLight
     EXPECT_EQ(cndGetLightingStats(view, frame.frameSlot, &result.stats), CND_SUCCESS);
     result.radiance = readRadiance(images);
     cndDestroyLightingView(view);
-    if (!options.lighting)
+    if (!options.lighting && !shares(options))
         cndDestroyLighting(lighting);
     return result;
 }

@@ -86,8 +86,8 @@ struct RunOptions {
     bool countPairs = false;
     const CndDeviceDesc* host = nullptr; // instead of the fixture's device, for interposed
                                          // functions
-    CndLighting lighting = nullptr; // an existing one with two frames in flight, instead of one for
-                                    // this run alone
+    CndLighting lighting = nullptr;      // an existing one with two frames in flight
+    bool ownLighting = false; // one for this run alone, instead of the one that tests share
     double lightOrigin[3] = {0, 0, 0};
     const CndDeviceLights* deviceLights = nullptr;
     uint32_t sampleCount = 0;
@@ -109,17 +109,11 @@ struct RunOptions {
 class LightingTest : public GpuTest
 {
 protected:
-    void TearDown() override;
-
-    // Draws with a view of its own and, unless the options name a lighting, with a lighting of its
-    // own.
+    // Draws with a view of its own.
     LightingResult run(const CpuGBuffer& g, const std::vector<CndLight>& lights,
                        const RunOptions& options = {});
-    // Returns a lighting for RunOptions::lighting with what the other options ask for. It lives
-    // until the test ends. Without a GPU, making the pipelines of a lighting takes longer than the
-    // frame: tests that draw often and do not check what a new lighting does share one.
-    CndLighting sharedLighting(const RunOptions& options = {});
-
+    // Creates a lighting for RunOptions::lighting, which the caller must destroy.
+    CndLighting createFor(const RunOptions& options);
     // Creates a lighting and a view for `g`, which the caller must destroy.
     std::pair<CndLighting, CndLightingView> createLighting(const CpuGBuffer& g,
                                                            CndLightingDesc desc);
@@ -162,9 +156,15 @@ protected:
     CndLightingFrame frameOf(const CpuGBuffer& g, const Images& images, const RunOptions& options);
 
 private:
+    // Without a GPU, making the pipelines of a lighting takes longer than the frame. So the tests
+    // of a process share one for each layout of the G-buffer, number of material classes, and use
+    // of influence by error. Runs with functions or devices of hosts have lightings of their own.
     CndLighting lightingFor(const RunOptions& options);
-
-    std::vector<CndLighting> shared_;
+    static bool shares(const RunOptions& options)
+    {
+        return !options.ownLighting && !options.host && !options.hostKernels.count &&
+               options.layout != CND_GBUFFER_HOST;
+    }
 };
 
 bool sameBits(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b);

@@ -66,7 +66,6 @@ protected:
 TEST_F(DeviceLightsTest, GiveTheSameImageAsFromTheHost)
 {
     std::vector<CndLight> spheres = randomSpheres(g_, 500, 7);
-    const CndLighting lighting = sharedLighting();
     for (const CndLightType type : {CND_LIGHT_SPHERE, CND_LIGHT_POINT}) {
         for (CndLight& light : spheres)
             light.type = type;
@@ -78,11 +77,11 @@ TEST_F(DeviceLightsTest, GiveTheSameImageAsFromTheHost)
             others[i].type = i % 2 ? CND_LIGHT_POINT : CND_LIGHT_SPHERE;
         std::vector<CndLight> all = others;
         all.insert(all.end(), spheres.begin(), spheres.end());
-        const LightingResult fromHost = run(g_, all, {.lighting = lighting});
+        const LightingResult fromHost = run(g_, all);
         const CndDeviceLights device = desc(type, 700, 500);
         for (const CndCulling culling : {CND_CULLING_CLUSTERED, CND_CULLING_BRUTE}) {
-            const LightingResult mixed = run(
-                g_, others, {.culling = culling, .lighting = lighting, .deviceLights = &device});
+            const LightingResult mixed =
+                run(g_, others, {.culling = culling, .deviceLights = &device});
             EXPECT_EQ(mixed.stats.lightCount, 740u);
             EXPECT_EQ(mixed.stats.deviceLights, 500u);
             EXPECT_EQ(mixed.stats.rejectedLights, 0u);
@@ -91,8 +90,8 @@ TEST_F(DeviceLightsTest, GiveTheSameImageAsFromTheHost)
         }
         EXPECT_TRUE(sameBits(run(g_, others, {.deviceLights = &device}).radiance,
                              run(g_, others, {.deviceLights = &device}).radiance));
-        const LightingResult alone = run(g_, {}, {.lighting = lighting, .deviceLights = &device});
-        const LightingResult aloneFromHost = run(g_, spheres, {.lighting = lighting});
+        const LightingResult alone = run(g_, {}, {.deviceLights = &device});
+        const LightingResult aloneFromHost = run(g_, spheres);
         EXPECT_LE(maxRelativeDifference(alone.radiance, aloneFromHost.radiance), 1e-6);
         EXPECT_GT(maxRelativeDifference(alone.radiance, fromHost.radiance), 1e-3);
     }

@@ -183,17 +183,12 @@ TEST_F(LightLayers, OfLightsOnTheDevice)
                            .boundsMin = {-10, -10, -20},
                            .boundsMax = {10, 10, 0},
                            .influenceRadius = 2};
-    const CndLighting lighting = sharedLighting();
-    const LightingResult expected = run(g_, {}, {.lighting = lighting, .deviceLights = &device});
+    const LightingResult expected = run(g_, {}, {.deviceLights = &device});
     device.layers = 2;
     const std::vector<glm::vec4> black(expected.radiance.size(), glm::vec4(0));
     for (const CndCulling culling : {CND_CULLING_CLUSTERED, CND_CULLING_BRUTE}) {
         const auto in = [&](uint32_t layers) {
-            return run(g_, {},
-                       {.culling = culling,
-                        .lighting = lighting,
-                        .deviceLights = &device,
-                        .layers = layers});
+            return run(g_, {}, {.culling = culling, .deviceLights = &device, .layers = layers});
         };
         EXPECT_TRUE(sameBits(in(3), expected));
         const LightingResult none = in(5);
@@ -202,16 +197,12 @@ TEST_F(LightLayers, OfLightsOnTheDevice)
     }
     // Beside lights of the host of the same type. Sums are formed in the order of all lights.
     std::vector<CndLight> hosts = randomSpheres(g_, 60, 10);
-    const LightingResult hostsAlone = run(g_, hosts, {.lighting = lighting});
+    const LightingResult hostsAlone = run(g_, hosts);
     for (CndLight& light : hosts)
         light.layers = 1;
     for (const CndCulling culling : {CND_CULLING_CLUSTERED, CND_CULLING_BRUTE}) {
         const auto in = [&](uint32_t layers) {
-            return run(g_, hosts,
-                       {.culling = culling,
-                        .lighting = lighting,
-                        .deviceLights = &device,
-                        .layers = layers})
+            return run(g_, hosts, {.culling = culling, .deviceLights = &device, .layers = layers})
                 .radiance;
         };
         EXPECT_LE(maxRelativeDifference(in(1), hostsAlone.radiance), 1e-6);

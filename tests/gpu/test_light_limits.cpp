@@ -123,7 +123,6 @@ TEST_F(LightLaws, NothingComesFromBelowTheHorizon)
     }
     for (const app::Choice<CndSpecularMethod>& method : app::specularChoices) {
         RunOptions options{.specular = method.value};
-        options.lighting = sharedLighting(options);
         for (const CndCulling culling : {CND_CULLING_CLUSTERED, CND_CULLING_BRUTE}) {
             options.culling = culling;
             for (const glm::vec4& pixel : run(g, lights, options).radiance)

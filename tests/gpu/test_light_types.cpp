@@ -119,7 +119,6 @@ TEST_F(LightTypes, ClusteredEqualsBruteForceForEveryMethod)
             if (!sphere && (stands || (later && !fullTests())))
                 continue;
             RunOptions options{.specular = method, .sampleCount = 4};
-            options.lighting = sharedLighting(options);
             const LightingResult clustered = run(g, lights, options);
             options.culling = CND_CULLING_BRUTE;
             const LightingResult brute = run(g, lights, options);
@@ -134,7 +133,6 @@ TEST_F(LightTypes, TypesMixInOneSet)
 {
     const CpuGBuffer g = randomGBuffer(72, 48, camera(), 0, 6);
     RunOptions options{.specular = CND_SPECULAR_CONIC};
-    options.lighting = sharedLighting(options);
     std::vector<CndLight> mixed;
     std::vector<glm::vec4> sum(g.depth.size(), glm::vec4(0));
     for (const CndLightType type : allTypes()) {
@@ -157,7 +155,6 @@ TEST_F(LightTypes, DiffuseEqualsTruth)
 {
     const CpuGBuffer g = randomGBuffer(48, 32, camera(), 0, 7);
     RunOptions options{.specular = CND_SPECULAR_NONE};
-    options.lighting = sharedLighting(options);
     for (const CndLightType type : allTypes()) {
         const TypeErrors e = errorsOf(g, lightsOf(type, g, 8, 2), options);
         std::cout << lightTypeName(type) << ": diffuse error mean " << e.mean
@@ -173,9 +170,7 @@ TEST_F(LightTypes, DefaultMethodIsCloseToTruth)
 {
     const CpuGBuffer g = randomGBuffer(36, 24, camera(), 0, 8);
     RunOptions closedForm{.specular = CND_SPECULAR_CONIC};
-    closedForm.lighting = sharedLighting(closedForm);
     RunOptions samples{.specular = CND_SPECULAR_SAMPLED, .sampleCount = 1024};
-    samples.lighting = sharedLighting(samples);
     for (const CndLightType type : allTypes()) {
         const auto lights = lightsOf(type, g, 6, 3);
         const TypeErrors conic = errorsOf(g, lights, closedForm);

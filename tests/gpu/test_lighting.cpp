@@ -73,12 +73,10 @@ TEST_P(LightingSizes, ClusteredEqualsBrute)
 {
     const auto [size, count] = GetParam();
     const CpuGBuffer g = randomGBuffer(size.x, size.y, defaultCamera(size.x, size.y), 0, count + 1);
-    const CndLighting lighting = sharedLighting();
     for (const bool mixed : {false, true}) {
         const auto lights = mixed ? mixedLights(g, count, 7) : randomSpheres(g, count, 7);
-        const LightingResult clustered = run(g, lights, {.countPairs = true, .lighting = lighting});
-        const LightingResult brute =
-            run(g, lights, {.culling = CND_CULLING_BRUTE, .lighting = lighting});
+        const LightingResult clustered = run(g, lights, {.countPairs = true});
+        const LightingResult brute = run(g, lights, {.culling = CND_CULLING_BRUTE});
         EXPECT_TRUE(agree(clustered.radiance, brute.radiance, batchesOnLlvmpipe));
         EXPECT_EQ(clustered.stats.lightCount, count);
         EXPECT_EQ(clustered.stats.unlistedClusters, 0u);
@@ -114,14 +112,12 @@ TEST_F(LightingTest, ClusteredEqualsBruteUnderEveryProjection)
     setOrthographic(cameras[5].second, 10, 1.5, 0.1, 100);
     cameras[6].first = "orthographic standard";
     setOrthographic(cameras[6].second, 10, 1.5, 0.1, 100, false);
-    const CndLighting lighting = sharedLighting();
     for (auto& [name, camera] : cameras) {
         const bool standard = std::string(name).find("standard") != std::string::npos;
         const CpuGBuffer g = randomGBuffer(120, 80, camera, standard ? 1.0f : 0.0f, 3);
         const auto lights = mixedLights(g, 300, 5);
-        const LightingResult clustered = run(g, lights, {.lighting = lighting});
-        const LightingResult brute =
-            run(g, lights, {.culling = CND_CULLING_BRUTE, .lighting = lighting});
+        const LightingResult clustered = run(g, lights);
+        const LightingResult brute = run(g, lights, {.culling = CND_CULLING_BRUTE});
         EXPECT_TRUE(agree(clustered.radiance, brute.radiance, batchesOnLlvmpipe)) << name;
         EXPECT_GT(peak(brute.radiance), 0) << name;
     }
@@ -182,7 +178,6 @@ TEST_F(LightingTest, ListsOverBudgetLoseNothing)
          {std::pair(spheres, CND_SPECULAR_KARIS), std::pair(spheres, CND_SPECULAR_CONIC),
           std::pair(mixed, CND_SPECULAR_CONIC), std::pair(mixed, CND_SPECULAR_KARIS)}) {
         RunOptions options{.specular = method};
-        options.lighting = sharedLighting(options);
         const LightingResult whole = run(g, lights, options);
         options.listBudget = 4096;
         const LightingResult tiny = run(g, lights, options);
@@ -198,16 +193,13 @@ TEST_F(LightingTest, RunsAreBitIdentical)
     const CpuGBuffer g = randomGBuffer(203, 117, defaultCamera(203, 117), 0, 4);
     const auto lights = mixedLights(g, 900, 1);
     const LightingResult first = run(g, lights);
-    const CndLighting shared = sharedLighting();
     const int runs = fullTests() ? 20 : 8;
     for (int i = 0; i < runs; ++i) // the first four with a new lighting each
-        EXPECT_TRUE(sameBits(
-            first.radiance,
-            run(g, lights, {.lighting = i < 4 ? nullptr : shared, .frames = i % 4 + 1}).radiance));
+        EXPECT_TRUE(sameBits(first.radiance,
+                             run(g, lights, {.ownLighting = i < 4, .frames = i % 4 + 1}).radiance));
     // Which lists find a page depends on the schedule, and with it which pipeline shades a cluster.
     for (int i = 0; i < 5; ++i)
-        EXPECT_TRUE(agree(first.radiance,
-                          run(g, lights, {.listBudget = 100000, .lighting = shared}).radiance));
+        EXPECT_TRUE(agree(first.radiance, run(g, lights, {.listBudget = 100000}).radiance));
 }
 
 TEST_F(LightingTest, FarFromTheOriginLooksTheSame)

@@ -15,7 +15,6 @@ TEST_F(LightingTest, TheLastOfManyLightsIsNotLost)
     CndCamera camera;
     setPerspective(camera, 1.0, 1.0, 0.1);
     const CpuGBuffer g = randomGBuffer(24, 16, camera, 0, 5);
-    const CndLighting lighting = sharedLighting();
     for (const uint32_t count : {20000u, 40000u, 70000u, 300000u}) {
         std::vector<CndLight> lights = randomSpheres(g, 1, 5);
         // Without a cut, every light is in every list.
@@ -23,17 +22,16 @@ TEST_F(LightingTest, TheLastOfManyLightsIsNotLost)
         const CndLight bright = lights[0];
         CndLight dark = bright;
         dark.emission[0] = dark.emission[1] = dark.emission[2] = 0;
-        const LightingResult expected =
-            run(g, {bright}, {.culling = CND_CULLING_BRUTE, .lighting = lighting});
+        const LightingResult expected = run(g, {bright}, {.culling = CND_CULLING_BRUTE});
         lights.assign(count, dark);
         lights.back() = bright;
         for (const CndCulling culling : {CND_CULLING_CLUSTERED, CND_CULLING_BRUTE}) {
-            const LightingResult all = run(g, lights, {.culling = culling, .lighting = lighting});
+            const LightingResult all = run(g, lights, {.culling = culling});
             EXPECT_TRUE(agree(all.radiance, expected.radiance, batchesOnLlvmpipe))
                 << count << " lights, culling " << culling;
         }
         // Clusters whose lists do not fit walk the whole light tree.
-        const LightingResult unlisted = run(g, lights, {.listBudget = 4096, .lighting = lighting});
+        const LightingResult unlisted = run(g, lights, {.listBudget = 4096});
         EXPECT_TRUE(agree(unlisted.radiance, expected.radiance, batchesOnLlvmpipe)) << count;
     }
     // The other lights reach so little that no tile lists more than the last light: long masks,
@@ -47,10 +45,8 @@ TEST_F(LightingTest, TheLastOfManyLightsIsNotLost)
     away.influenceRadius = 2 * away.radius;
     lights.assign(count, away);
     lights.back() = bright;
-    const LightingResult expected =
-        run(g, {bright}, {.culling = CND_CULLING_BRUTE, .lighting = lighting});
-    EXPECT_TRUE(agree(run(g, lights, {.lighting = lighting}).radiance, expected.radiance,
-                      batchesOnLlvmpipe));
+    const LightingResult expected = run(g, {bright}, {.culling = CND_CULLING_BRUTE});
+    EXPECT_TRUE(agree(run(g, lights).radiance, expected.radiance, batchesOnLlvmpipe));
 }
 
 } // namespace candelabra::test

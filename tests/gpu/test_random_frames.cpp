@@ -67,21 +67,12 @@ TEST_F(LightingTest, RandomFramesEqualBrute)
 {
     const uint32_t frames = fullTests() ? 1000 : 60;
     uint32_t lit = 0;
-    CndError error{};
-    const CndLightingDesc desc{.structSize = sizeof desc,
-                               .framesInFlight = 2,
-                               .specularMethods = 1u << RunOptions{}.specular,
-                               .shading = CND_SHADING_CLUSTERED_BIT};
-    CndLighting lighting{};
-    ASSERT_EQ(cndCreateLighting(&deviceDesc(), &desc, &lighting, &error), CND_SUCCESS)
-        << error.message;
     for (uint32_t seed = 0; seed < frames; ++seed) {
         RandomFrame frame(seed);
         const CpuGBuffer g = frame.gbuffer();
         const auto lights = frame.lights(g);
-        const LightingResult brute =
-            run(g, lights, {.culling = CND_CULLING_BRUTE, .lighting = lighting});
-        const LightingResult clustered = run(g, lights, {.lighting = lighting});
+        const LightingResult brute = run(g, lights, {.culling = CND_CULLING_BRUTE});
+        const LightingResult clustered = run(g, lights);
         EXPECT_TRUE(agree(clustered.radiance, brute.radiance, batchesOnLlvmpipe))
             << "seed " << seed << ", " << g.width << "x" << g.height << ", " << lights.size()
             << " lights";
@@ -91,7 +82,6 @@ TEST_F(LightingTest, RandomFramesEqualBrute)
                 break;
             }
     }
-    cndDestroyLighting(lighting);
     EXPECT_GE(lit, frames / 2); // most frames have lit pixels to compare
 }
 
@@ -102,15 +92,13 @@ TEST_F(LightingTest, RandomFramesHaveTheSameListsFromGroupsAndFromLanes)
     const CndDeviceDesc gpu = gpuLike(deviceDesc());
     RunOptions byGroups;
     byGroups.host = &gpu;
-    byGroups.lighting = sharedLighting(byGroups);
-    RunOptions byLanes;
-    byLanes.lighting = sharedLighting();
+    byGroups.lighting = createFor(byGroups);
     uint64_t entries = 0, splits = 0;
     for (uint32_t seed = 0; seed < frames; ++seed) {
         RandomFrame frame(seed);
         const CpuGBuffer g = frame.gbuffer();
         const auto lights = frame.lights(g);
-        const LightingResult expected = run(g, lights, byLanes);
+        const LightingResult expected = run(g, lights);
         const LightingResult got = run(g, lights, byGroups);
         EXPECT_TRUE(sameBits(got, expected)) << "seed " << seed;
         EXPECT_EQ(got.stats.listEntries, expected.stats.listEntries) << "seed " << seed;
@@ -119,6 +107,7 @@ TEST_F(LightingTest, RandomFramesHaveTheSameListsFromGroupsAndFromLanes)
         entries += expected.stats.listEntries;
         splits += expected.stats.splitTileCount;
     }
+    cndDestroyLighting(byGroups.lighting);
     EXPECT_GT(entries, 100u * frames);
     EXPECT_GT(splits, frames);
 }

@@ -53,6 +53,8 @@ public:
     {
         if (!context_)
             return;
+        for (const std::function<void()>& destroy : destroyers)
+            destroy();
         // The log must outlive the device, to receive messages about objects that were not
         // destroyed.
         context_->destroyDevice();
@@ -60,6 +62,7 @@ public:
         context_.reset();
     }
     std::string reason;
+    std::vector<std::function<void()>> destroyers;
 
 private:
     std::unique_ptr<app::VulkanContext> context_;
@@ -124,6 +127,11 @@ void GpuTest::TearDown()
 const app::VulkanContext& GpuTest::context() const
 {
     return *owner().get();
+}
+
+void GpuTest::destroyAfterTests(std::function<void()> destroy)
+{
+    owner().destroyers.push_back(std::move(destroy));
 }
 
 std::vector<app::ValidationMessage> GpuTest::takeMessages() const

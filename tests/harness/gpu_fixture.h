@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstring>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,6 +34,9 @@ protected:
     // Returns the messages since the last call, for tests that provoke them; they no longer fail
     // the test.
     std::vector<app::ValidationMessage> takeMessages() const;
+
+    // Has `destroy` called after the last test, before the device is destroyed.
+    static void destroyAfterTests(std::function<void()> destroy);
 
     // Returns a host-visible buffer, usable by the GPU in any way, filled with `data`.
     gpu::Buffer upload(const std::string& name, std::span<const std::byte> data) const;
