@@ -10,19 +10,20 @@ namespace candelabra::app
 namespace
 {
 
-constexpr double rows[][5] = {
+constexpr size_t rowSize = 5;
+constexpr double numbers[] = {
 #include "measure/kernels/ltc_table.inc"
 };
-static_assert(std::size(rows) == gpu::LTC_TABLE_SIZE * gpu::LTC_TABLE_SIZE);
+static_assert(std::size(numbers) == rowSize * gpu::LTC_TABLE_SIZE * gpu::LTC_TABLE_SIZE);
 
 } // namespace
 
 std::vector<glm::vec4> ltcTable()
 {
     std::vector<glm::vec4> texels;
-    for (const auto& [sharpnessX, sharpnessY, shift, albedo, dielectricAlbedo] : rows) {
-        texels.emplace_back(sharpnessX, sharpnessY, shift, albedo);
-        texels.emplace_back(dielectricAlbedo, 0, 0, 0);
+    for (size_t i = 0; i < std::size(numbers); i += rowSize) {
+        texels.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]);
+        texels.emplace_back(numbers[i + 4], 0, 0, 0);
     }
     return texels;
 }
