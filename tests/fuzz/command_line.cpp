@@ -40,8 +40,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size)
     static CLI::App app("fuzzed"); // created once, because creation takes longer than parsing
     if (app.get_subcommands({}).empty())
         for (const auto add : {addBenchCommand, addCompareCommand, addDevicesCommand,
-                               addManualCommands, addProfileCommand, addRenderCommand,
-                               addReportCommand, addStressCommand, addTruthCommand, addViewCommand})
+                               addProfileCommand, addRenderCommand, addReportCommand,
+                               addStressCommand, addTruthCommand, addViewCommand})
             add(app, run);
     try {
         app.parse(int(argv.size()), argv.data());

@@ -42,13 +42,13 @@ TEST(Mipmaps, LevelsHalveDownToOneTexel)
 {
     const auto levels = gbuffer::mipLayout(13, 4);
     ASSERT_EQ(levels.size(), 4u);
-    const uint32_t sizes[4][2] = {{13, 4}, {6, 2}, {3, 1}, {1, 1}};
+    const uint32_t levelSizes[4][2] = {{13, 4}, {6, 2}, {3, 1}, {1, 1}};
     size_t offset = 0;
     for (size_t i = 0; i < 4; ++i) {
-        EXPECT_EQ(levels[i].width, sizes[i][0]);
-        EXPECT_EQ(levels[i].height, sizes[i][1]);
+        EXPECT_EQ(levels[i].width, levelSizes[i][0]);
+        EXPECT_EQ(levels[i].height, levelSizes[i][1]);
         EXPECT_EQ(levels[i].offset, offset);
-        offset += size_t(sizes[i][0]) * sizes[i][1] * 4;
+        offset += size_t(levelSizes[i][0]) * levelSizes[i][1] * 4;
     }
     EXPECT_EQ(chainBytes(levels), offset);
 }
