@@ -3,7 +3,6 @@
 // warning that names the element, the value and what is used instead.
 #include <cmath>
 #include <functional>
-#include <map>
 
 #include "unit/broken_scene_cases.h"
 #include "unit/gltf_fixture.h"
@@ -59,70 +58,74 @@ TEST_F(GltfMending, IntegersMayBeWrittenWithAPoint)
     EXPECT_NE(error(b).find("accessors[0].componentType: must be an integer"), std::string::npos);
 }
 
-// A second mesh with one fault is left out, and the rest is drawn. A file that has only the mesh
-// with the fault is refused, and the message names the fault.
+// Adds a node with a mesh of one triangle, and returns the mesh.
+Json& addTriangle(GltfBuilder& b, const std::vector<uint16_t>& corners = {0, 1, 2})
+{
+    const int positions = b.floats({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
+    const int normals = b.floats({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
+    const int mesh = b.mesh({{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}},
+                             {"indices", b.indices(corners)}});
+    b.rootNode({{"mesh", mesh}});
+    return b.json["meshes"].back();
+}
+
+// A mesh with one fault is left out, and the others are drawn. A file that has no other mesh is
+// refused, and the message names the fault.
 TEST_F(GltfMending, OneBrokenMeshDoesNotLoseTheOthers)
 {
-    const auto sceneOf = [](size_t sound, const char* fault) {
-        GltfBuilder b;
-        b.json["scene"] = 0;
-        const auto addTriangle = [&](const std::vector<uint16_t>& corners) {
-            const int positions = b.floats({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
-            const int normals = b.floats({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
-            const int mesh = b.mesh({{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}},
-                                     {"indices", b.indices(corners)}});
-            b.rootNode({{"mesh", mesh}});
-        };
-        for (size_t i = 0; i < sound; ++i)
-            addTriangle({0, 1, 2});
-        addTriangle({0, 1, 2});
-        Json& mesh = b.json["meshes"].back();
-        Json& primitive = mesh["primitives"][0];
-        const size_t positions = primitive["attributes"]["POSITION"];
-        Json& accessor = b.json["accessors"][positions];
-        const std::map<std::string, std::function<void()>> faults = {
-            {"no attributes", [&] { primitive.erase("attributes"); }},
-            {"attribute out of range", [&] { primitive["attributes"]["NORMAL"] = 99; }},
-            {"mode 7", [&] { primitive["mode"] = 7; }},
-            {"no primitives", [&] { mesh.erase("primitives"); }},
-            {"accessor without type", [&] { accessor.erase("type"); }},
-            {"accessor beyond its view", [&] { accessor["count"] = 1000; }},
-            {"view of no buffer",
-             [&] { b.json["bufferViews"][size_t(accessor["bufferView"])]["buffer"] = 5; }},
-            {"indices beyond",
-             [&] {
-                 addTriangle({0, 1, 7});
-             }},
-            {"skin without joints",
-             [&] {
-                 b.json["skins"] = {{{"joints", Json::array()}}};
-                 b.json["nodes"].back()["skin"] = 0;
-             }},
-        };
-        const auto found = faults.find(fault);
-        EXPECT_NE(found, faults.end()) << fault;
-        found->second();
-        return b;
+    struct Fault {
+        std::function<void(GltfBuilder&, Json& mesh, Json& accessor)> add;
+        const char *reason, *instead; // parts of the message
     };
-    for (const auto& [fault, element] : std::map<const char*, const char*>{
-             {"no attributes", "meshes[1].primitives[0]: \"attributes\" is missing; the primitive"},
-             {"attribute out of range", "attributes.NORMAL: is 99, but there are"},
-             {"mode 7", "meshes[1].primitives[0].mode: must be"},
-             {"no primitives", "meshes[1]: \"primitives\" is missing; the mesh is left out"},
-             {"accessor without type", ": \"type\" is missing; what uses it is left out"},
-             {"accessor beyond its view", "the primitive is left out"},
-             {"view of no buffer", "buffer: is 5, but there are 1 buffers; what uses it"},
-             {"indices beyond", "element 2 is 7, but"},
-             {"skin without joints",
-              "skins[0]: has no joints; the mesh of the node is left out"}}) {
-        const Scene scene = load(sceneOf(1, fault));
-        EXPECT_GE(scene.instances.size(), 1u) << fault;
-        EXPECT_LE(scene.warnings.size(), 2u) << fault; // the file has no lights
-        EXPECT_TRUE(warns(scene, element)) << fault << ": " << scene.warnings[0];
-    }
-    EXPECT_NE(error(sceneOf(0, "mode 7")).find("meshes[0].primitives[0].mode: must be"),
-              std::string::npos);
-    EXPECT_NE(error(sceneOf(0, "accessor beyond its view")).find("accessors["), std::string::npos);
+    const auto primitiveOf = [](Json& mesh) -> Json& { return mesh["primitives"][0]; };
+    const Fault faults[] = {
+        {[&](auto&, Json& mesh, Json&) { primitiveOf(mesh).erase("attributes"); },
+         ".primitives[0]: \"attributes\" is missing", "the primitive is left out"},
+        {[&](auto&, Json& mesh, Json&) { primitiveOf(mesh)["attributes"]["NORMAL"] = 99; },
+         "attributes.NORMAL: is 99, but there are", "the primitive is left out"},
+        {[&](auto&, Json& mesh, Json&) { primitiveOf(mesh)["mode"] = 7; },
+         ".primitives[0].mode: must be", "the primitive is left out"},
+        {[](auto&, Json& mesh, Json&) { mesh["primitives"] = 5; }, ".primitives: must be an array",
+         "the mesh is left out"},
+        {[](auto&, Json& mesh, Json&) { mesh.erase("primitives"); }, ": \"primitives\" is missing",
+         "the mesh is left out"},
+        {[](auto&, Json&, Json& accessor) { accessor.erase("type"); }, ": \"type\" is missing",
+         "what uses it is left out"},
+        {[](auto&, Json&, Json& accessor) { accessor["count"] = 1000; }, "accessors[",
+         "the primitive is left out"},
+        {[](GltfBuilder& b, Json&, Json& accessor) {
+             b.json["bufferViews"][size_t(accessor["bufferView"])]["buffer"] = 5;
+         },
+         "buffer: is 5, but there are 1 buffers", "what uses it is left out"},
+        {[](GltfBuilder& b, Json& mesh, Json&) {
+             mesh["primitives"][0]["indices"] = b.indices({0, 1, 7});
+         },
+         "element 2 is 7, but", "the primitive is left out"},
+        {[](GltfBuilder& b, Json&, Json&) {
+             b.json["skins"] = {{{"joints", Json::array()}}};
+             b.json["nodes"].back()["skin"] = 0;
+         },
+         "skins[0]: has no joints", "the mesh of the node is left out"},
+    };
+    for (const Fault& fault : faults)
+        for (const bool alone : {false, true}) {
+            GltfBuilder b;
+            b.json["scene"] = 0;
+            if (!alone)
+                addTriangle(b);
+            Json& mesh = addTriangle(b);
+            const size_t positions = primitiveOf(mesh)["attributes"]["POSITION"];
+            fault.add(b, mesh, b.json["accessors"][positions]);
+            if (alone) {
+                EXPECT_NE(error(b).find(fault.reason), std::string::npos) << error(b);
+                continue;
+            }
+            const Scene scene = load(b);
+            EXPECT_EQ(scene.instances.size(), 1u) << fault.reason;
+            EXPECT_LE(scene.warnings.size(), 2u) << fault.reason; // the file has no lights
+            EXPECT_TRUE(warns(scene, fault.reason)) << scene.warnings[0];
+            EXPECT_TRUE(warns(scene, fault.instead)) << scene.warnings[0];
+        }
 }
 
 // Appends an element that nothing uses to an array of a complete file, and loads it.

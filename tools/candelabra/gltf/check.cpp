@@ -3,9 +3,10 @@
 // properties of the wrong type and truncates large integers.
 //
 // One wrong value does not lose a file. A value that is not needed is replaced by what schema.h
-// says; an element that nothing uses, or a texture, material, camera or light, is left out. What is
-// left out leaves its place in its array, so that indices stay as they are. Each time a warning
-// names the element, the value and what is used instead.
+// says; an element that is wrong is left out, unless it is used and schema.h says that the file is
+// refused without it. An element that is left out leaves a stub in its array, so that indices stay
+// as they are; a primitive or an item of a list of indices is removed. Each time a warning names
+// the element, the value and what is used instead.
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
@@ -250,7 +251,6 @@ void Mender::mendList(Json& value, const std::string& path, const Field& field)
     std::set<size_t> seen;
     Field item = field;
     item.kind = field.kind == Kind::Indices ? Kind::Index : Kind::Object;
-    item.fill = nullptr;
     for (size_t i = 0; i < value.size(); ++i) {
         const std::string itemPath = path + "[" + std::to_string(i) + "]";
         if (field.kind == Kind::Numbers) {
@@ -308,7 +308,8 @@ bool Mender::keeps(Json& value, const std::string& path, const Field& field)
         if (!field.instead)
             throw;
     } catch (const SceneError& error) {
-        if (!field.instead)
+        // "instead" is about the items of a list of objects, not about the list.
+        if (!field.instead || field.kind == Kind::Objects)
             throw;
         warnings_.addInstead(file_, error, field.instead);
         if (field.fields.data() == schema::primitive)
@@ -322,7 +323,7 @@ void Mender::mendObject(Json& value, const std::string& path, std::span<const Fi
     at(value, path).requireObject();
     for (const Field& field : fields) {
         const std::string key(field.name), memberPath = path.empty() ? key : path + "." + key;
-        const bool isNeeded = field.required && (!field.fill || field.kind == Kind::Objects);
+        const bool isNeeded = field.required && !field.fill;
         const auto instead = [&] { return field.instead ? std::string("; ") + field.instead : ""; };
         const auto member = value.find(key);
         if (member == value.end()) {

@@ -251,11 +251,7 @@ void GltfDocument::fail(const std::string& element, const std::string& reason) c
 
 void GltfDocument::failTooLarge(const std::string& element, const std::string& reason) const
 {
-    try {
-        fail(element, reason);
-    } catch (const SceneError& error) {
-        throw SceneTooLarge(error.what());
-    }
+    throw SceneTooLarge(sceneMessage(file, element, reason));
 }
 
 std::string GltfDocument::withoutFile(const std::string& message) const

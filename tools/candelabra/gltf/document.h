@@ -44,8 +44,8 @@ struct GltfDocument {
     std::vector<std::vector<uint8_t>> buffers;
     std::string missingExtensions; // those that the file requires and the loader does not read
     mutable LoadWarnings warnings;
-    // The first fault for which a mesh, or a part of one, was left out.
-    mutable std::optional<SceneError> lostMesh;
+    // The first fault of the JSON for which a mesh, or a part of one, may be left out.
+    std::optional<SceneError> lostMesh;
 
     // The message of a failure of this document without the name of the file at its beginning.
     std::string withoutFile(const std::string& message) const;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <tuple>
 
 #include "gltf/document.h"
@@ -43,7 +44,8 @@ public:
           options_(options),
           scene_(scene),
           defaultMaterial_(readGltfMaterials(document, scene)),
-          poses_(document)
+          poses_(document),
+          lostMesh_(document.lostMesh)
     {
     }
 
@@ -56,9 +58,15 @@ private:
     void addMesh(const GltfPlacedNode& placed);
     void addInstance(const std::string& element, size_t gltfMesh, const GltfPose& pose,
                      glm::dmat4 worldFromMesh);
-    // Calls `add`. If it fails, warns that `what` is left out, unless the scene is too large.
+    // Calls `add`. If it fails, warns that `what` is left out and returns the failure. A scene that
+    // is too large still fails.
     template <typename Add>
-    void addOrLeaveOut(const char* what, const Add& add);
+    std::optional<SceneError> addOrLeaveOut(const char* what, const Add& add);
+    void noteLostMesh(const std::optional<SceneError>& fault)
+    {
+        if (!lostMesh_)
+            lostMesh_ = fault;
+    }
     // Counts the points or lines of a primitive that consists of them, and not of triangles.
     void countLeftOut(const tinygltf::Primitive& primitive);
     void warnOfLeftOut() const;
@@ -82,6 +90,8 @@ private:
     std::map<std::tuple<size_t, size_t, int64_t, bool>, int64_t> meshes_;
     size_t points_ = 0, lines_ = 0; // left out, of all instances
     bool foundTriangles_ = false;
+    bool hasSurfaces_ = false; // also if a light of the scene took the place of the surface
+    std::optional<SceneError> lostMesh_; // the first fault for which a mesh was left out
     GltfLights lights_;
     GltfEmissiveRectangles emissive_;
 };
@@ -90,23 +100,23 @@ void SceneBuilder::add(const GltfPlacedNode& placed)
 {
     const tinygltf::Node& node = document_.model.nodes[placed.node];
     if (node.mesh >= 0)
-        addOrLeaveOut("the mesh of the node", [&] { addMesh(placed); });
+        noteLostMesh(addOrLeaveOut("the mesh of the node", [&] { addMesh(placed); }));
     if (node.camera >= 0)
         addCamera(placed);
     addOrLeaveOut("the light", [&] { addGltfLights(document_, placed, options_, lights_); });
 }
 
 template <typename Add>
-void SceneBuilder::addOrLeaveOut(const char* what, const Add& add)
+std::optional<SceneError> SceneBuilder::addOrLeaveOut(const char* what, const Add& add)
 {
     try {
         add();
+        return std::nullopt;
     } catch (const SceneTooLarge&) {
         throw;
     } catch (const SceneError& error) {
-        if (!document_.lostMesh)
-            document_.lostMesh = error;
         document_.warnInstead(error, std::string(what) + " is left out");
+        return error;
     }
 }
 
@@ -127,10 +137,10 @@ int64_t SceneBuilder::mesh(size_t gltfMesh, size_t primitive, const GltfPose& po
         }
     } else {
         const auto& source = document_.model.meshes[gltfMesh].primitives[primitive];
-        addOrLeaveOut("the primitive", [&] {
+        noteLostMesh(addOrLeaveOut("the primitive", [&] {
             result = readGltfPrimitive(document_, gltfMesh, primitive,
                                        scene_.materials[material(source)], pose, budget_);
-        });
+        }));
     }
     if (result) {
         index = static_cast<int64_t>(scene_.meshes.size());
@@ -146,11 +156,13 @@ void SceneBuilder::addMesh(const GltfPlacedNode& placed)
     const auto gltfMesh = static_cast<size_t>(document_.model.nodes[placed.node].mesh);
     const GltfPose pose = poses_.of(placed);
     const size_t room = maxInstances - scene_.instances.size();
-    for (const glm::dmat4& nodeFromMesh : readGltfInstancing(document_, placed.node, room)) {
-        const glm::dmat4 worldFromMesh = pose.worldFromMesh * nodeFromMesh;
-        refuseHugeTransform(document_, element, worldFromMesh);
-        addInstance(element, gltfMesh, pose, worldFromMesh);
+    std::vector<glm::dmat4> copies = readGltfInstancing(document_, placed.node, room);
+    for (glm::dmat4& copy : copies) {
+        copy = pose.worldFromMesh * copy;
+        refuseHugeTransform(document_, element, copy);
     }
+    for (const glm::dmat4& worldFromMesh : copies)
+        addInstance(element, gltfMesh, pose, worldFromMesh);
 }
 
 // Adds one copy of a mesh, which belongs to the node `element`.
@@ -181,6 +193,7 @@ void SceneBuilder::addInstance(const std::string& element, size_t gltfMesh, cons
         const int64_t index = mesh(gltfMesh, p, pose, mirrored);
         if (index == noMesh)
             continue;
+        hasSurfaces_ = true;
         const uint32_t materialIndex = material(primitives[p]);
         if (options_.emissiveLights &&
             emissive_.replace(scene_.meshes[static_cast<size_t>(index)],
@@ -285,8 +298,8 @@ void SceneBuilder::addCamera(const GltfPlacedNode& placed)
 
 void SceneBuilder::finish()
 {
-    if (document_.lostMesh && scene_.instances.empty() && !document_.model.meshes.empty())
-        throw *document_.lostMesh;
+    if (lostMesh_ && !hasSurfaces_)
+        throw *lostMesh_;
     warnOfLeftOut();
     emissive_.warn(document_);
     scene_.lights = std::move(lights_.lights);

@@ -39,7 +39,8 @@ struct Field {
     const char* target = nullptr; // JSON pointer of the array that an index points into
     std::span<const Field> fields = {};
     // Says what is used instead of a value that is wrong. The member is then removed, or of Indices
-    // and Objects the item. nullptr: the object that has the member is wrong.
+    // the item. Of Objects it says what is used instead of an item that is wrong. nullptr: the
+    // object that has the member is wrong.
     const char* instead = nullptr;
     // Numbers beyond an end of their range are replaced by that end.
     bool clamps = false;
@@ -254,7 +255,7 @@ inline constexpr Field primitive[] = {
     index("targets", "/accessors", Kind::IndexMaps),
     object("extensions", primitiveExtensions)};
 inline constexpr Field mesh[] = {
-    objects("primitives", primitive).need().orFill("[]", "the primitive is left out"),
+    objects("primitives", primitive).need().orElse("the primitive is left out"),
     anyNumbers("weights", coordinate).orElse("weights of 0 are used"), name()};
 inline constexpr Field skin[] = {index("joints", "/nodes", Kind::Indices).need(),
                                  index("inverseBindMatrices", "/accessors"), name()};

@@ -117,10 +117,15 @@ std::string withNonFiniteQuoted(std::string_view text)
 
 } // namespace
 
+std::string sceneMessage(const std::string& file, const std::string& element,
+                         const std::string& reason)
+{
+    return printable(file, 4096) + ": " + (element.empty() ? "" : element + ": ") + reason;
+}
+
 void failScene(const std::string& file, const std::string& element, const std::string& reason)
 {
-    throw SceneError(printable(file, 4096) + ": " + (element.empty() ? "" : element + ": ") +
-                     reason);
+    throw SceneError(sceneMessage(file, element, reason));
 }
 
 std::string printable(std::string_view text, size_t maxLength)

@@ -17,7 +17,10 @@ namespace candelabra::app
 // enough for squared distances to stay finite in single precision.
 constexpr double maxCoordinate = 1e12;
 
-// Throws a SceneError that says "file: element: reason", or "file: reason" if `element` is empty.
+// Returns "file: element: reason", or "file: reason" if `element` is empty.
+std::string sceneMessage(const std::string& file, const std::string& element,
+                         const std::string& reason);
+// Throws a SceneError with that message.
 [[noreturn]] void failScene(const std::string& file, const std::string& element,
                             const std::string& reason);
 
