@@ -15,7 +15,7 @@ excluded = [pattern for pattern in os.environ.get("CANDELABRA_EXCLUDED_TESTS", "
 arguments = ["--gtest_shuffle"] if os.environ.get("CANDELABRA_FULL_TESTS") == "1" else []
 crashed = []
 while True:
-    # Tests that have ended are left out: a test that follows a crash is not run with less.
+    # After a crash, the tests that have run already are excluded too.
     command = [executable, f"--gtest_filter={suite}.*-" + ":".join(excluded), *arguments]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                                text=True, errors="replace")

@@ -52,9 +52,10 @@ struct Light {
 // BenchResponse.
 struct Response {
     double f = 0, a = 0, b = 0;
-    uint32_t way = 0; // EVALUATE_*, in which shading/light_walk.glsl has the light evaluated
+    uint32_t way = 0; // EVALUATE_*: the case that shading/light_walk.glsl finds for the light
 };
 
+// Throws std::logic_error if the type of light or the method is unknown.
 Response respond(const Settings& settings, const Receiver& receiver, const Light& light);
 
 } // namespace candelabra::formula
