@@ -83,10 +83,11 @@ protected:
     }
 
     // Expects the same responses up to rounding. The closed form amplifies it where the outline
-    // passes the mirror direction of a narrow lobe.
+    // passes the mirror direction of a narrow lobe: up to 6.5e-4 of the largest response on
+    // llvmpipe, and 1.24e-3 on an NVIDIA H200.
     static void expectSame(const std::vector<gpu::BenchResponse>& a,
                            const std::vector<gpu::BenchResponse>& b, CndSpecularMethod method,
-                           double closedFormTolerance = 1e-3)
+                           double closedFormTolerance = 2e-3)
     {
         ASSERT_EQ(a.size(), b.size());
         const double tolerance = method == CND_SPECULAR_CONIC ? closedFormTolerance : 2e-5;
