@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Rules about the documents: links and anchors resolve, figures are the measured ones, listings are
-what the tests build, decisions have their four parts, the names that documents cite exist, and DESIGN.md
-has all kernels and rooms.
+"""Checks the documents: links and anchors resolve, figures are the measured ones, tests build the listings,
+decisions have their four parts, the names that documents cite exist, and DESIGN.md has all kernels and
+folders.
 Usage: test_documents.py REPOSITORY"""
 import fnmatch
 import pathlib
@@ -130,9 +130,9 @@ for document in (DECISIONS, DESIGN, RESULTS):
         if not fnmatch.filter(tests, pattern):
             fail(document, f"runs {pattern}, which no test is named like")
 
-# DESIGN.md names every kernel. Its table has a row for every room of the engine and of the shaders. The rooms
-# in the last column, with what these may include in turn, are those that test_includes.py allows. Public headers
-# and headers that the build generates are not compared.
+# DESIGN.md names every kernel. Its table has a row for every folder of the engine and of the shaders. The folders
+# in the last column, and those that these may include in turn, are the ones that test_includes.py allows. Public
+# headers and headers that the build generates are not compared.
 design = DESIGN.read_text(encoding="utf-8")
 for kernel in sorted((root / "shaders").glob("kernels/*.comp")) + sorted((root / "shaders").glob("gbuffer/*.comp")):
     if not re.search(rf"\b{kernel.stem}\b", design):
@@ -140,34 +140,34 @@ for kernel in sorted((root / "shaders").glob("kernels/*.comp")) + sorted((root /
 
 
 def design_path(name):
-    """Returns the path from the root of the repository of what DESIGN.md names relative to itself."""
+    """Returns the path from the root of the repository to a file or folder that DESIGN.md names relative to itself."""
     return (DESIGN.parent / name).resolve().relative_to(root).as_posix()
 
 
-def includable(room, rooms):
-    """Returns the rooms that may be included by a room, or by what it may include."""
-    direct = set(rooms.get(room, []))
-    return direct.union(*(includable(other, rooms) for other in direct))
+def includable(folder, folders):
+    """Returns the folders that a folder, or the folders that it may include, may include."""
+    direct = set(folders.get(folder, []))
+    return direct.union(*(includable(other, folders) for other in direct))
 
 
-def check_rooms(rooms):
-    """Compares the table of DESIGN.md, lists of rooms by room, with the rooms of test_includes.py."""
-    for room, allowed in test_includes.ROOMS:
-        if "." in room or not room.startswith(("engine/", "shaders/")):
+def check_folders(folders):
+    """Compares the table of DESIGN.md, lists of folders by folder, with FOLDERS of test_includes.py."""
+    for folder, allowed in test_includes.FOLDERS:
+        if "." in folder or not folder.startswith(("engine/", "shaders/")):
             continue
         expected = {other for other in allowed
                     if not other.startswith((test_includes.PUBLIC, "candelabra_", "shaders/lib/forward.glsl"))}
-        if room not in rooms:
-            fail(DESIGN, f"has no row for {room}")
-        elif includable(room, rooms) != expected:
-            fail(DESIGN, f"says that {room} may include {', '.join(sorted(includable(room, rooms))) or 'nothing'}, "
+        if folder not in folders:
+            fail(DESIGN, f"has no row for {folder}")
+        elif includable(folder, folders) != expected:
+            fail(DESIGN, f"says that {folder} may include {', '.join(sorted(includable(folder, folders))) or 'nothing'}, "
                          f"but it may include {', '.join(sorted(expected)) or 'nothing'}")
-    for room in rooms.keys() - dict(test_includes.ROOMS).keys():
-        fail(DESIGN, f"has a row for {room}, which is no room of test_includes.py")
+    for folder in folders.keys() - dict(test_includes.FOLDERS).keys():
+        fail(DESIGN, f"has a row for {folder}, which test_includes.py does not list")
 
 
-check_rooms({design_path(room): [design_path(name) for name in re.findall(r"`([^`]+)`", last)]
-             for room, last in re.findall(r"^\| `([^`]+)` \|[^|]*\|([^|]*)\|$", design, re.MULTILINE)})
+check_folders({design_path(folder): [design_path(name) for name in re.findall(r"`([^`]+)`", last)]
+               for folder, last in re.findall(r"^\| `([^`]+)` \|[^|]*\|([^|]*)\|$", design, re.MULTILINE)})
 
 # Every name of the API that these documents cite is in the public headers, or without its prefix in the
 # GLSL of which hosts get copies with prefixes (shaders/host_shaders.cmake).
@@ -188,7 +188,7 @@ for guide in (README, DESIGN, *(root / "engine" / name for name in ("CHANGELOG.m
     for word in sorted(set(re.findall(r"\b(?:Cnd|cnd|CND_)\w+", text) + fields)):
         own = re.match(r"cnd|Cnd|CND_", word) and without_prefix(word)
         if not re.search(rf"\b{word}\b", headers) and not (own and re.search(rf"\b{own}\b", glsl)):
-            fail(guide, f"names {word}, which is neither in the headers nor in the GLSL of hosts")
+            fail(guide, f"names {word}, which is neither in the headers nor in the GLSL for hosts")
 
 print("\n".join(failures) or f"{len(DOCUMENTS)} documents keep the rules")
 sys.exit(1 if failures else 0)

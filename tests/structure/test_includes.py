@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Which file may include which. The tree is divided into rooms, each of them a folder. ROOMS lists them
-from the lowest to the highest and says what each may include. No include leads to a room later in that
-list, and no files or rooms include each other in a circle. Usage: test_includes.py REPOSITORY"""
+"""Checks which file includes which. FOLDERS lists the folders of the tree from the lowest to the highest and says
+what each may include. No file includes one of a folder later in that list, and no files or folders include each
+other in a circle. Usage: test_includes.py REPOSITORY"""
 import pathlib
 import posixpath
 import re
@@ -10,13 +10,13 @@ import sys
 
 PUBLIC = "engine/include/candelabra"
 
-# (folder, what its files may include besides each other: folders and files of earlier rooms, and headers
-# that the build generates). A file belongs to the room with the longest matching name.
-ROOMS = [
+# (folder, what its files may include besides each other: earlier folders or files in them, and headers
+# that the build generates). A file belongs to the folder with the longest matching name.
+FOLDERS = [
     ("shaders/shared", []),
     ("shaders/lib", ["shaders/shared"]),
     ("shaders/shading", ["shaders/lib", "shaders/shared"]),
-    # The name by which shaders of hosts include what shaders/shading/forward.glsl holds.
+    # Shaders of hosts include shaders/shading/forward.glsl by this name.
     ("shaders/lib/forward.glsl", ["shaders/shading/forward.glsl"]),
     ("shaders/kernels/common", ["shaders/shading", "shaders/lib", "shaders/shared"]),
     ("shaders/kernels", ["shaders/kernels/common", "shaders/shading", "shaders/lib", "shaders/shared"]),
@@ -27,9 +27,9 @@ ROOMS = [
                         "shaders/lib", "shaders/shared"]),
 
     (PUBLIC, []),
-    # The double-precision reference shares no code with what it judges: no shader, no other room.
+    # The double-precision reference shares no code with what it judges: no shader, no other folder.
     ("engine/reference", [f"{PUBLIC}/candelabra.h"]),
-    # The engine's floors.
+    # The engine.
     ("engine/gpu", [PUBLIC]),
     ("engine/tables", ["engine/gpu", "shaders/shared", "candelabra_shaders.h"]),
     ("engine/surfaces", ["engine/gpu", "shaders/shared", PUBLIC, "candelabra_shaders.h"]),
@@ -50,7 +50,7 @@ ROOMS = [
     ("engine/compiler", ["engine/shading/light_family.h", "engine/gpu/failure.h", PUBLIC]),
 
     # The program: files and text; scenes; the three origins of scenes (glTF, generators, JSON) and the
-    # room that chooses among them; the double-precision truth of a scene.
+    # folder that chooses among them; the double-precision truth of a scene.
     ("tools/candelabra/io", []),
     ("tools/candelabra/scene", ["tools/candelabra/io", PUBLIC]),
     ("tools/candelabra/gltf", ["tools/candelabra/scene", PUBLIC]),
@@ -60,20 +60,20 @@ ROOMS = [
     ("tools/candelabra/load", ["tools/candelabra/json", "tools/candelabra/gltf", "tools/candelabra/generate",
                                "tools/candelabra/scene", "tools/candelabra/io", PUBLIC]),
     ("tools/candelabra/truth", ["tools/candelabra/scene", "tools/candelabra/io", "engine/reference", PUBLIC]),
-    # The program renders through the public API. Besides that it may use engine/gpu and the raster pass,
-    # both of which are made to be used alone.
+    # The program renders through the public API. It may also use engine/gpu and the raster pass, which can both
+    # be used alone.
     ("tools/candelabra/render", ["tools/candelabra/scene", "tools/candelabra/io", PUBLIC, "engine/gpu",
                                  "engine/gbuffer", "shaders/shared/specular_methods.h",
                                  "shaders/shared/accumulate.h", "shaders/shared/bloom.h",
                                  "shaders/shared/edge_filter.h", "shaders/shared/heat_map.h",
                                  "candelabra_commit.h",
                                  "candelabra_program_shaders.h"]),
-    # The shaders' evaluation of lights in double precision: double_shaders.h holds shaders/shading with all
-    # that it includes.
+    # The shaders' evaluation of lights in double precision. double_shaders.h contains shaders/shading and
+    # everything that it includes.
     ("tools/formula", ["engine/shading/light_family.h", "shaders/shared/conic_constants.h",
                        "shaders/shared/light_types.h", "shaders/shared/lighting.h", PUBLIC, "double_shaders.h"]),
-    # The rooms that measure compare with the double-precision truth. Some of them may use internals of
-    # the engine: their lists name more of the engine than PUBLIC.
+    # The folders that measure compare with the double-precision truth. Some of them may use internals of
+    # the engine, so their lists name more of the engine than PUBLIC.
     ("tools/candelabra/measure/frame", ["tools/candelabra/render", "tools/candelabra/scene",
                                         "tools/candelabra/io", PUBLIC, "engine/reference",
                                         "shaders/shared/gbuffer.h"]),
@@ -129,7 +129,7 @@ ROOMS = [
                    "tools/candelabra/generate/random.h", "tools/candelabra/io", "engine/reference",
                    "shaders/shared/conic_constants.h"]),
 
-    # Samples are written like projects of their own, which find the installed engine.
+    # Each sample is written like a separate project that finds the installed engine.
     ("samples/common", []),
     ("samples/embed_c", ["samples/common"]),
     ("samples/embed_forward", ["samples/common", "shaders/lib/forward.glsl", "ball_frag.h", "ball_vert.h"]),
@@ -142,7 +142,7 @@ ROOMS = [
     ("tests", ["engine", "shaders", "tools", "candelabra_probes.h"]),
 ]
 
-# For the files of a folder: where their quoted includes are looked for, after the includer's own folder.
+# (folder, where quoted includes of its files are looked for after the includer's own folder)
 SEARCHED = [
     ("engine", ["engine", "engine/include", "shaders"]),
     ("shaders", ["shaders"]),
@@ -163,13 +163,13 @@ def within(path, place):
 
 
 def is_generated(place):
-    """Tells whether an entry of a room's list is a header that the build generates."""
+    """Tells whether an entry of a folder's list is a header that the build generates."""
     return "/" not in place and "." in place
 
 
-def room_of(path, rooms):
-    """Returns the room that a file belongs to, or None if there is none."""
-    return max((folder for folder, _ in rooms if within(path, folder)), key=len, default=None)
+def folder_of(path, folders):
+    """Returns the folder that a file belongs to, or None if there is none."""
+    return max((folder for folder, _ in folders if within(path, folder)), key=len, default=None)
 
 
 def resolve(path, include, files):
@@ -204,50 +204,50 @@ def cycles(edges):
     return found
 
 
-def check_table(rooms):
-    """Yields what is wrong with the list of rooms itself."""
-    order = [folder for folder, _ in rooms]
-    for at, (folder, allowed) in enumerate(rooms):
+def check_table(folders):
+    """Yields what is wrong with the list of folders itself."""
+    order = [folder for folder, _ in folders]
+    for at, (folder, allowed) in enumerate(folders):
         for place in allowed:
             if not is_generated(place) and not any(
                     within(place, below) or within(below, place) for below in order[:at]):
-                yield f"the list of rooms: {folder} may include {place}, which does not stand before it"
+                yield f"the list of folders: {folder} may include {place}, which is not listed before it"
 
 
-def check(files, rooms):
+def check(files, folders):
     """Yields what is wrong with the includes of `files`, a dictionary from path to text."""
-    yield from check_table(rooms)
-    allowed = dict(rooms)
+    yield from check_table(folders)
+    allowed = dict(folders)
     generated = {place for places in allowed.values() for place in places if is_generated(place)}
-    by_file, by_room = {}, {}
+    by_file, by_folder = {}, {}
     for path, text in sorted(files.items()):
         if pathlib.Path(path).suffix not in SUFFIXES:
             continue
-        room = room_of(path, rooms)
-        if room is None:
-            yield f"{path}: stands in no room"
+        folder = folder_of(path, folders)
+        if folder is None:
+            yield f"{path}: is in no listed folder"
             continue
         for include in re.findall(r'^\s*#\s*include "([^"]+)"', text, re.MULTILINE):
             if include in generated:
-                if include not in allowed[room] and room != "tests":
+                if include not in allowed[folder] and folder != "tests":
                     yield f'{path}: may not include "{include}"'
                 continue
             targets = resolve(path, include, files)
             if len(targets) != 1:
                 yield f'{path}: "{include}" ' + (f"means {' and '.join(sorted(targets))}" if targets
-                                                  else "is no file of the repository")
+                                                  else "is not a file of the repository")
                 continue
             target = targets.pop()
             by_file.setdefault(path, set()).add(target)
-            other = room_of(target, rooms)
-            if other != room:
-                by_room.setdefault(room, set()).add(other)
-                if not any(within(target, place) for place in allowed[room]):
-                    yield f'{path}: may not include "{include}": {room} may not include {other}'
+            other = folder_of(target, folders)
+            if other != folder:
+                by_folder.setdefault(folder, set()).add(other)
+                if not any(within(target, place) for place in allowed[folder]):
+                    yield f'{path}: may not include "{include}": {folder} may not include {other}'
     for component in cycles(by_file):
         yield "files include each other in a circle: " + ", ".join(component)
-    for component in cycles(by_room):
-        yield "rooms include each other in a circle: " + ", ".join(component)
+    for component in cycles(by_folder):
+        yield "folders include each other in a circle: " + ", ".join(component)
 
 
 def check_public(files):
@@ -262,11 +262,11 @@ def check_public(files):
 
 def test_the_test():
     """Checks that this test finds each kind of fault, and finds nothing in correct files."""
-    rooms = [("engine/low", []), ("engine/high", ["engine/low"])]
+    folders = [("engine/low", []), ("engine/high", ["engine/low"])]
     low, high = "engine/low/a.h", "engine/high/b.h"
 
-    def found(files, rooms=rooms):
-        return [fault.split(": ")[0] for fault in check(files, rooms)]
+    def found(files, folders=folders):
+        return [fault.split(": ")[0] for fault in check(files, folders)]
 
     around = "files include each other in a circle"
     assert found({low: "", high: '#include "low/a.h"\n'}) == []
@@ -276,14 +276,14 @@ def test_the_test():
     three = {low: '#include "c.h"\n', "engine/low/c.h": '#include "d.h"\n', "engine/low/d.h": '#include "a.h"\n'}
     assert found(three) == [around]
     assert found({low: '#include "high/b.h"\n', high: "", "engine/high/c.h": '#include "low/a.h"\n'}) == \
-        [low, "rooms include each other in a circle"]
+        [low, "folders include each other in a circle"]
     assert found({low: '#include "nowhere.h"\n'}) == [low]
-    assert found({"engine/other/a.h": ""}) == ["engine/other/a.h"]  # in no room
-    assert found({}, [("engine/low", ["engine/high"]), ("engine/high", [])]) == ["the list of rooms"]
-    # The truth includes no form of the formulas that it judges.
+    assert found({"engine/other/a.h": ""}) == ["engine/other/a.h"]  # in no listed folder
+    assert found({}, [("engine/low", ["engine/high"]), ("engine/high", [])]) == ["the list of folders"]
+    # The reference does not include any version of the formulas that it judges.
     formulas = {"tools/formula/formula.h": "", "shaders/lib/math.glsl": ""}
     for include in ("formula/formula.h", "../../tools/formula/formula.h", "double_shaders.h", "lib/math.glsl"):
-        assert "engine/reference/a.h" in found({"engine/reference/a.h": f'#include "{include}"\n', **formulas}, ROOMS)
+        assert "engine/reference/a.h" in found({"engine/reference/a.h": f'#include "{include}"\n', **formulas}, FOLDERS)
     assert list(check_public({f"{PUBLIC}/a.h": "#include <vulkan/vulkan.h>\n"})) != []
     assert list(check_public({f"{PUBLIC}/a.h": "#include <vulkan/vulkan_core.h>\n"})) == []
 
@@ -294,11 +294,11 @@ def main():
     files = {path.relative_to(root).as_posix(): path.read_text(encoding="utf-8")
              for folder in ("engine", "samples", "shaders", "tests", "tools")
              for path in sorted((root / folder).rglob("*")) if path.suffix in SUFFIXES | {".inc"}}
-    failures = list(check(files, ROOMS)) + list(check_public(files))
-    print("\n".join(failures) or f"{len(files)} files in {len(ROOMS)} rooms include each other as they may")
+    failures = list(check(files, FOLDERS)) + list(check_public(files))
+    print("\n".join(failures) or f"{len(files)} files in {len(FOLDERS)} folders include only what they may")
     return 1 if failures else 0
 
 
-if __name__ == "__main__":  # test_documents.py reads ROOMS
+if __name__ == "__main__":  # test_documents.py reads FOLDERS
     sys.setrecursionlimit(10_000)
     sys.exit(main())
