@@ -25,11 +25,6 @@ static_assert(gpu::UNLISTED_BITS + CND_LIGHT_TYPE_COUNT <= gpu::LIT_BITS &&
 // A group of light_tree reads the children of the children of one node.
 static_assert(gpu::LIGHT_TREE_GROUP == gpu::TREE_WIDTH * gpu::TREE_WIDTH);
 
-// With more lights than this, blocks find their lights in the tree instead of in the lists of the
-// blocks of blocks, which are then so long that they save nothing. The number lies between the
-// counts at which the one and the other were measured to be faster (DECISIONS 25).
-constexpr uint32_t largeBlockLights = 131072;
-
 // Blocks with more lights than this have no list, and the clusters in them find their lights in the
 // tree: each of them keeps few of so many lights. Of the lengths that were measured, this one is
 // among the fastest in the hall, and takes up to 1.3 of the time without a limit in the fence
@@ -44,9 +39,9 @@ uint32_t nodeCount(uint32_t lights)
     return lights == 1 ? 2 : count; // light_tree makes levels in pairs
 }
 
-glm::uvec2 blocks(glm::uvec2 below)
+glm::uvec2 blocksOf(glm::uvec2 tileCount)
 {
-    return {divideUp(below.x, gpu::BLOCK_SIDE), divideUp(below.y, gpu::BLOCK_SIDE)};
+    return {divideUp(tileCount.x, gpu::BLOCK_SIDE), divideUp(tileCount.y, gpu::BLOCK_SIDE)};
 }
 
 uint32_t area(glm::uvec2 size)
@@ -110,11 +105,7 @@ Clusters::Clusters(const gpu::Device& device, const ClusterKernels& kernels,
       splitCapacity_(area(sizes.maxTiles))
 {
     const glm::uvec2 maxTiles = sizes.maxTiles;
-    uint32_t records = 0, blockCount = 0;
-    for (const Level& level : levels(maxTiles)) {
-        records += area(level.count);
-        blockCount += level.firstCluster ? area(level.count) : 0;
-    }
+    const uint32_t blockCount = area(blocksOf(maxTiles));
     const VkDeviceSize largest = device.limits.maxStorageBufferRange / sizeof(gpu::Cluster);
     const VkDeviceSize fixed = area(maxTiles) + VkDeviceSize(blockCount) * gpu::BLOCK_SLICES;
     if (largest < fixed)
@@ -141,7 +132,8 @@ Clusters::Clusters(const gpu::Device& device, const ClusterKernels& kernels,
     const auto make = [&](const char* name, VkDeviceSize bytes, VkBufferUsageFlags use) {
         return gpu::createBuffer(device, name, bytes, use, gpu::MemoryUse::Scratch);
     };
-    tiles_ = make("tiles", VkDeviceSize(records) * sizeof(gpu::TileClusters), storageUse);
+    tiles_ = make("tiles", VkDeviceSize(area(maxTiles) + blockCount) * sizeof(gpu::TileClusters),
+                  storageUse);
     clusters_ = make("clusters", VkDeviceSize(clusterCount_) * sizeof(gpu::Cluster), storageUse);
     surfaces_ = make("surface tiles", tileWorkBytes(1), workUse | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     splits_ = make("split tiles", workBytes(2, splitCapacity_),
@@ -149,22 +141,6 @@ Clusters::Clusters(const gpu::Device& device, const ClusterKernels& kernels,
     entries_ = make("list entries", std::max(sizes.listBudget, 2 * pageBytes),
                     storageUse | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
     gpu::createTexelView(device, entries_, VK_FORMAT_R32_UINT, sizeof(uint32_t));
-}
-
-// The buffer of clusters holds one per tile of the largest frame, then the slices of split tiles,
-// then the slices of blocks.
-std::array<Clusters::Level, 1 + gpu::BLOCK_LEVELS> Clusters::levels(glm::uvec2 tileCount) const
-{
-    std::array<Level, 1 + gpu::BLOCK_LEVELS> out{};
-    out[0] = {.count = tileCount};
-    uint32_t cluster = firstSplit() + splitCapacity_ * gpu::SLICES;
-    for (size_t i = 1; i < out.size(); ++i) {
-        out[i] = {.count = blocks(out[i - 1].count),
-                  .first = out[i - 1].first + area(out[i - 1].count),
-                  .firstCluster = cluster};
-        cluster += area(out[i].count) * gpu::BLOCK_SLICES;
-    }
-    return out;
 }
 
 // Each list of a buffer of tiles has room for all tiles, since all may be on the same one.
@@ -316,25 +292,20 @@ void Clusters::recordClusters(const gpu::Frame& f, glm::uvec2 tileCount, float s
         return;
     kernels_.splitTiles.dispatchIndirect(f, splitSets_.set(f.slot), params, splits_);
     f.barrier();
-    const auto level = levels(tileCount);
-    for (size_t i = 1; i < level.size(); ++i) {
-        const uint32_t blockCount = area(level[i].count);
-        const uint32_t blockGroups =
-            kernels_.lanesTogether
-                ? blockCount
-                : divideUp(blockCount * gpu::BLOCK_SLICES, gpu::BLOCK_CLUSTERS_GROUP);
-        kernels_.blockClusters.dispatchInRows(f, blockSets_.set(f.slot),
-                                              {.childFirst = level[i - 1].first,
-                                               .childCountX = level[i - 1].count.x,
-                                               .childCountY = level[i - 1].count.y,
-                                               .blockFirst = level[i].first,
-                                               .blockCountX = level[i].count.x,
-                                               .blockCount = blockCount,
-                                               .clusterFirst = level[i].firstCluster,
-                                               .side = blockSide(i)},
-                                              blockGroups);
-        f.barrier();
-    }
+    const glm::uvec2 blocks = blocksOf(tileCount);
+    const uint32_t blockCount = area(blocks);
+    kernels_.blockClusters.dispatchInRows(
+        f, blockSets_.set(f.slot),
+        {.tileCountX = tileCount.x,
+         .tileCountY = tileCount.y,
+         .blockFirst = params.tileCount,
+         .blockCountX = blocks.x,
+         .blockCount = blockCount,
+         .clusterFirst = firstOfBlocks()},
+        kernels_.lanesTogether
+            ? blockCount
+            : divideUp(blockCount * gpu::BLOCK_SLICES, gpu::BLOCK_CLUSTERS_GROUP));
+    f.barrier();
 }
 
 void Clusters::recordLists(const gpu::Frame& f, uint32_t type, const gpu::TreeShape& tree,
@@ -343,7 +314,7 @@ void Clusters::recordLists(const gpu::Frame& f, uint32_t type, const gpu::TreeSh
     const gpu::Kernel<gpu::ClusterListsParams>& kernel = kernels_.clusterLists;
     const VkDescriptorSet set = listSets_.set(f.slot * CND_LIGHT_TYPE_COUNT + type);
     const uint32_t loops = device_.maxLoopIterations;
-    const auto level = levels(tileCount);
+    const uint32_t blockCount = area(blocksOf(tileCount));
     gpu::ClusterListsParams params{.tree = tree,
                                    .pageCount = uint32_t(entries_.size / pageBytes) / 2,
                                    .longest = longestBlockList,
@@ -353,26 +324,21 @@ void Clusters::recordLists(const gpu::Frame& f, uint32_t type, const gpu::TreeSh
                                    .maxUnlistedSteps = loops == UINT32_MAX ? loops : loops / 16,
                                    .lightType = type,
                                    .which = gpu::LISTS_OF_BLOCKS,
+                                   .firstCluster = firstOfBlocks(),
+                                   .clusterCount = blockCount * gpu::BLOCK_SLICES,
                                    .tileCountX = tileCount.x,
                                    .tileCountY = tileCount.y,
                                    .findsHeights = tileHeightsOf(device_, type) > 1};
     const auto dispatch = [&](uint32_t lists) {
         kernel.dispatchInRows(f, set, params, listGroups(lists));
     };
-    for (size_t i = level.size() - 1; i > 0; --i) {
-        if (i > 1 && tree.lightCount > largeBlockLights)
-            continue;
-        params.firstCluster = level[i].firstCluster;
-        params.clusterCount = area(level[i].count) * gpu::BLOCK_SLICES;
-        dispatch(params.clusterCount);
-        f.barrier();
-        params.hasParents = 1;
-    }
+    dispatch(params.clusterCount);
+    f.barrier();
     params.pageCount *= 2; // the lists of blocks took at most half, so that tiles have the rest
     params.longest = longest;
     params.which = gpu::LISTS_OF_TILES;
     params.firstCluster = 0;
-    dispatch(area(level[1].count) * gpu::BLOCK_SIDE * gpu::BLOCK_SIDE);
+    dispatch(blockCount * gpu::BLOCK_SIDE * gpu::BLOCK_SIDE);
     params.which = gpu::LISTS_OF_SLICES;
     params.firstCluster = firstSplit();
     params.clusterCount = splitCapacity_ * gpu::SLICES;

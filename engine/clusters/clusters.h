@@ -27,12 +27,6 @@ struct ClusterKernels {
     gpu::Kernel<gpu::ClusterListsParams> clusterLists;
 };
 
-// Returns the side of a block in pixels. Level 0: a tile, 1: a block of tiles, 2: one of blocks.
-constexpr uint32_t blockSide(size_t level)
-{
-    return level == 0 ? gpu::TILE_SIZE : gpu::BLOCK_SIDE * blockSide(level - 1);
-}
-
 // Returns the byte offset of a work list in the buffer that begins with it and others.
 constexpr VkDeviceSize workListAt(uint32_t list)
 {
@@ -118,16 +112,11 @@ public:
     const gpu::Buffer& surfaces() const { return surfaces_; }
 
 private:
-    // The position of a level's records in their buffers. Level 0 are the tiles, level 1 the blocks
-    // of tiles, level 2 the blocks of those.
-    struct Level {
-        glm::uvec2 count;      // tiles or blocks
-        uint32_t first;        // in the buffer of TileClusters
-        uint32_t firstCluster; // in the buffer of clusters
-    };
-    std::array<Level, 1 + gpu::BLOCK_LEVELS> levels(glm::uvec2 tileCount) const;
+    // The buffer of clusters holds one per tile of the largest frame, then the slices of split
+    // tiles, then the slices of blocks.
     uint32_t maxTileCount() const { return sizes_.maxTiles.x * sizes_.maxTiles.y; }
-    uint32_t firstSplit() const { return maxTileCount(); } // first cluster of split tiles
+    uint32_t firstSplit() const { return maxTileCount(); }
+    uint32_t firstOfBlocks() const { return firstSplit() + splitCapacity_ * gpu::SLICES; }
     VkDeviceSize tileWorkBytes(uint32_t heights) const;
     Lists createLists(uint32_t type) const;
     uint32_t listGroups(uint32_t lists) const noexcept;

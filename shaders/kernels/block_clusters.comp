@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the clusters of blocks of tiles, or of blocks of blocks: one per slice of a block's depth. How
+// Makes the clusters of blocks of tiles: one per slice of a block's depth. How
 // many slices a block has depends on its length: the slices of a short block share most of their
 // lights, so their lists take longer to make than they save (DECISIONS 71). On GPUs the lanes of a
 // group make the slices of one block, and each lane takes a few clusters of the children. On llvmpipe
@@ -41,8 +41,8 @@ bool takeChild(uint block, uint i, out TileClusters child)
 {
     const uvec2 at = BLOCK_SIDE * uvec2(block % params.blockCountX, block / params.blockCountX) +
                      uvec2(i % BLOCK_SIDE, i / BLOCK_SIDE);
-    const uvec2 inside = min(at, uvec2(params.childCountX, params.childCountY) - 1u);
-    child = tiles[params.childFirst + inside.y * params.childCountX + inside.x];
+    const uvec2 inside = min(at, uvec2(params.tileCountX, params.tileCountY) - 1u);
+    child = tiles[inside.y * params.tileCountX + inside.x];
     return inside == at && child.lowest <= child.highest;
 }
 
@@ -62,7 +62,8 @@ int sliceBitsOf(BlockRange range)
     const float lowest = viewZ(m, uintBitsToFloat(range.lowest));
     const float highest = viewZ(m, uintBitsToFloat(range.highest));
     const float w = min(abs(m.m23 * lowest + m.m33), abs(m.m23 * highest + m.m33));
-    const float width = 2.0 * float(params.side) * frameParams.invImageSize.x * w / abs(m.m00);
+    const float side = float(TILE_SIZE * BLOCK_SIDE);
+    const float width = 2.0 * side * frameParams.invImageSize.x * w / abs(m.m00);
     const float blockLength = abs(lowest - highest);
     return blockLength > 4.0 * width ? 3 : blockLength > 2.0 * width ? 2 : blockLength > width ? 1 : 0;
 }

@@ -103,7 +103,7 @@ void makeByLane(uint list)
     const Cluster cluster = clusters[at];
     if (cluster.min.x > cluster.max.x)
         return;
-    const uint parent = params.hasParents != 0u ? lists[cluster.parent] : LIST_UNLISTED;
+    const uint parent = params.which != LISTS_OF_BLOCKS ? lists[cluster.parent] : LIST_UNLISTED;
     ListWriter writer = beginList();
     if (params.findsHeights != 0u && params.which == LISTS_OF_TILES)
         writer.height = ALL_ABOVE; // until a lower light is found
@@ -125,7 +125,7 @@ void makeByGroup(uint group)
         if (lane == 0u)
             completeList(at, clusters[at].tile, list, tooLong);
     }
-    if (group % LISTS_TOGETHER != 0u || params.hasParents == 0u)
+    if (group % LISTS_TOGETHER != 0u || params.which == LISTS_OF_BLOCKS)
         return;
     const uint shortLists = makeShortLists(group);
     if ((shortLists & (1u << lane)) != 0u) {

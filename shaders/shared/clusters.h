@@ -31,13 +31,11 @@ struct LightTreeParams {
 GPU_SIZE(LightTreeParams, 20)
 
 // --- Clusters: the samples of a tile, of a slice of a deep tile's depth, or of a slice of a block
-// of tiles. Blocks of two sizes lead from the whole frame to the tiles: a light that cannot reach a
-// block need not be tested against its tiles.
+// of tiles. A light that cannot reach a block need not be tested against its tiles.
 const uint SLICE_BITS = 2u; // slices of a deep tile
 const uint SLICES = 4u;
 const uint BLOCK_SLICES = 8u; // the most slices of a block (sliceBitsOf() in block_clusters.comp)
-const uint BLOCK_SIDE = 4u;   // side of a block, in tiles or blocks of the level below
-const uint BLOCK_LEVELS = 2u;
+const uint BLOCK_SIDE = 4u;   // side of a block, in tiles
 
 // Bounds of the samples of a cluster, in view space, in metres. min > max: there is no sample.
 struct Cluster {
@@ -59,7 +57,7 @@ GPU_SIZE(Cluster, 76)
 const float MAX_SLOPE = 1024.0f;
 
 // A sample of a tile belongs to the cluster first + ((depth bits - lowest) >> shift). In blocks the
-// same holds for the clusters of the level below and their parents.
+// same holds for the clusters of tiles and their parents.
 struct TileClusters {
     uint first;
     uint lowest, highest; // range of the depth bits; lowest > highest: no sample
@@ -125,25 +123,24 @@ GPU_SIZE(TileClustersParams, 16)
 // makes the slices of a tile; together, TILE_SIZE lanes make a slice.
 const uint SPLIT_TILES_GROUP = 64u;
 
-// --- block_clusters: clusters of blocks from the clusters of the level below, one group per block
-// or one lane per slice
+// --- block_clusters: clusters of blocks from the clusters of their tiles, one group per block or one
+// lane per slice
 const uint BLOCK_CLUSTERS_GROUP = 64u;
 const uint BLOCK_CLUSTERS_CLUSTERS = 0u;
 const uint BLOCK_CLUSTERS_TILES = 1u;
 const uint BLOCK_CLUSTERS_FRAME = 2u; // FrameParams
 struct BlockClustersParams {
-    uint childFirst; // index in the buffer of TileClusters
-    uint childCountX, childCountY;
+    uint tileCountX, tileCountY;
     uint blockFirst; // index in the buffer of TileClusters
     uint blockCountX, blockCount;
     uint clusterFirst;
-    uint side; // side of a block, in pixels
 };
-GPU_SIZE(BlockClustersParams, 32)
+GPU_SIZE(BlockClustersParams, 24)
 
-// --- cluster_lists: makes the ordered list of a cluster from the list of its parent or from the
-// tree; one group per cluster, or one lane. 32 lanes are one subgroup of many GPUs, which then need
-// no barriers, and a word has a bit for each. With 64, short lists would leave more lanes idle.
+// --- cluster_lists: makes the ordered list of a cluster: of a block's from the tree, of a tile's from
+// the list of its parent, or from the tree if that has none. One group per cluster, or one lane. 32
+// lanes are one subgroup of many GPUs, which then need no barriers, and a word has a bit for each.
+// With 64, short lists would leave more lanes idle.
 const uint CLUSTER_LISTS_GROUP = 32u;
 // Specialisation constant: lanes of a group, 8, 16 or 32. Tests choose fewer than
 // CLUSTER_LISTS_GROUP, so that a group is one subgroup on devices with small ones.
@@ -174,10 +171,9 @@ struct ClusterListsParams {
     uint which; // LISTS_OF_*
     uint firstCluster, clusterCount;
     uint tileCountX, tileCountY;
-    uint hasParents;   // 1: parents have lists
     uint findsHeights; // 1: lanes by themselves find the heights of unsplit tiles
 };
-GPU_SIZE(ClusterListsParams, 60)
+GPU_SIZE(ClusterListsParams, 56)
 
 GPU_END
 

@@ -25,22 +25,19 @@ using gpu::divideUp;
 
 // Where the records of tiles and blocks and their clusters lie.
 struct Places {
-    glm::uvec2 tiles, blocks, largeBlocks;
-    uint32_t firstSlice, firstBlock, firstLarge, clusters; // of clusters
+    glm::uvec2 tiles, blocks;
+    uint32_t firstSlice, firstBlock, clusters; // of clusters
 
     explicit Places(const CpuGBuffer& g)
         : tiles((glm::uvec2(g.width, g.height) + gpu::TILE_SIZE - 1u) / gpu::TILE_SIZE),
           blocks((tiles + gpu::BLOCK_SIDE - 1u) / gpu::BLOCK_SIDE),
-          largeBlocks((blocks + gpu::BLOCK_SIDE - 1u) / gpu::BLOCK_SIDE),
           firstSlice(tileCount()),
           firstBlock(firstSlice + tileCount() * gpu::SLICES),
-          firstLarge(firstBlock + blockCount() * gpu::BLOCK_SLICES),
-          clusters(firstLarge + largeCount() * gpu::BLOCK_SLICES)
+          clusters(firstBlock + blockCount() * gpu::BLOCK_SLICES)
     {
     }
     uint32_t tileCount() const { return tiles.x * tiles.y; }
     uint32_t blockCount() const { return blocks.x * blocks.y; }
-    uint32_t largeCount() const { return largeBlocks.x * largeBlocks.y; }
 };
 
 // What the kernels have made.
@@ -127,23 +124,16 @@ void record(const gpu::Frame& f, const Kernels& k, const State& s, const Places&
                       gpu::TILE_CLUSTERS_GROUP));
     k.split.dispatchIndirect(f, s.splitSet.set(0), params, s.splits);
     fullBarrier(f.cmd);
-    const auto makeBlocks = [&](uint32_t childFirst, glm::uvec2 children, glm::uvec2 count,
-                                uint32_t clusterFirst, size_t level) {
-        const uint32_t blocks = count.x * count.y;
-        const gpu::BlockClustersParams p{.childFirst = childFirst,
-                                         .childCountX = children.x,
-                                         .childCountY = children.y,
-                                         .blockFirst = childFirst + children.x * children.y,
-                                         .blockCountX = count.x,
-                                         .blockCount = blocks,
-                                         .clusterFirst = clusterFirst,
-                                         .side = lighting::blockSide(level)};
-        dispatch(f, k.block, s.blockSet, p,
-                 k.lanesTogether ? blocks
-                                 : divideUp(blocks * gpu::BLOCK_SLICES, gpu::BLOCK_CLUSTERS_GROUP));
-    };
-    makeBlocks(0, at.tiles, at.blocks, at.firstBlock, 1);
-    makeBlocks(at.tileCount(), at.blocks, at.largeBlocks, at.firstLarge, 2);
+    dispatch(f, k.block, s.blockSet,
+             gpu::BlockClustersParams{.tileCountX = at.tiles.x,
+                                      .tileCountY = at.tiles.y,
+                                      .blockFirst = at.tileCount(),
+                                      .blockCountX = at.blocks.x,
+                                      .blockCount = at.blockCount(),
+                                      .clusterFirst = at.firstBlock},
+             k.lanesTogether
+                 ? at.blockCount()
+                 : divideUp(at.blockCount() * gpu::BLOCK_SLICES, gpu::BLOCK_CLUSTERS_GROUP));
 }
 
 class ClusterBoundsTest : public LightingTest
@@ -151,7 +141,7 @@ class ClusterBoundsTest : public LightingTest
 protected:
     // Tiles longer than `splitLength` metres are split.
     Made make(const CpuGBuffer& g, bool lanesTogether, float splitLength);
-    // Expects that blocks of both sizes have as many slices as their length and width ask for, in
+    // Expects that blocks have as many slices as their length and width ask for, in
     // the form for GPUs or in that for lanes alone. Counts the blocks by the binary logarithm of
     // their number of slices.
     void expectSlices(const CpuGBuffer& g, bool lanesTogether);
@@ -179,8 +169,7 @@ State ClusterBoundsTest::stateOf(const Kernels& k, const Places& at,
     State s{.tileSet = k.tile.createBindings(1),
             .splitSet = k.split.createBindings(1),
             .blockSet = k.block.createBindings(1),
-            .tiles = readback("tiles",
-                              (tiles + at.blockCount() + at.largeCount()) * sizeof(TileClusters)),
+            .tiles = readback("tiles", (tiles + at.blockCount()) * sizeof(TileClusters)),
             .clusters = readback("clusters", at.clusters * sizeof(Cluster)),
             .ofClass = readback("tiles of classes", TILE_WORK_LISTS * sizeof(WorkList) +
                                                         TILE_CLASSES * tiles * sizeof(uint32_t)),
@@ -312,24 +301,22 @@ void ClusterBoundsTest::expectSlices(const CpuGBuffer& g, bool lanesTogether)
 {
     const Made made = make(g, lanesTogether, 1e6f);
     const Places at(g);
-    const auto expectLevel = [&](uint32_t firstRecord, glm::uvec2 count, uint32_t side) {
-        for (uint32_t i = 0; i < count.x * count.y; ++i) {
-            const gpu::TileClusters& block = made.tiles[firstRecord + i];
-            const double ratio = lengthOverWidth(g, {i % count.x * side, i / count.x * side}, side);
-            EXPECT_EQ(block.lowest > block.highest, std::isnan(ratio)) << "block " << i;
-            const bool atLimit = std::ranges::any_of(
-                std::array{1., 2., 4.}, [&](double r) { return std::abs(ratio / r - 1) < 1e-3; });
-            if (std::isnan(ratio) || atLimit)
-                continue;
-            const uint32_t bits = ratio > 4 ? 3 : ratio > 2 ? 2 : ratio > 1 ? 1 : 0;
-            const uint32_t width = uint32_t(std::bit_width(block.highest - block.lowest));
-            EXPECT_EQ(block.shift, width > bits ? width - bits : 0)
-                << "block " << i << " of side " << side << ", length / width " << ratio;
-            ++blocksBySlices_[bits];
-        }
-    };
-    expectLevel(at.tileCount(), at.blocks, lighting::blockSide(1));
-    expectLevel(at.tileCount() + at.blockCount(), at.largeBlocks, lighting::blockSide(2));
+    constexpr uint32_t side = gpu::TILE_SIZE * gpu::BLOCK_SIDE;
+    for (uint32_t i = 0; i < at.blockCount(); ++i) {
+        const gpu::TileClusters& block = made.tiles[at.tileCount() + i];
+        const double ratio =
+            lengthOverWidth(g, {i % at.blocks.x * side, i / at.blocks.x * side}, side);
+        EXPECT_EQ(block.lowest > block.highest, std::isnan(ratio)) << "block " << i;
+        const bool atLimit = std::ranges::any_of(
+            std::array{1., 2., 4.}, [&](double r) { return std::abs(ratio / r - 1) < 1e-3; });
+        if (std::isnan(ratio) || atLimit)
+            continue;
+        const uint32_t bits = ratio > 4 ? 3 : ratio > 2 ? 2 : ratio > 1 ? 1 : 0;
+        const uint32_t width = uint32_t(std::bit_width(block.highest - block.lowest));
+        EXPECT_EQ(block.shift, width > bits ? width - bits : 0)
+            << "block " << i << ", length / width " << ratio;
+        ++blocksBySlices_[bits];
+    }
 }
 
 } // namespace

@@ -18,13 +18,13 @@ namespace
 
 using Lights = std::vector<std::vector<uint32_t>>; // per cluster
 
-// A set of lights and clusters: tiles, slices of split tiles, blocks, and blocks of blocks.
+// A set of lights and clusters: tiles, slices of split tiles, and blocks.
 struct Scene {
     static constexpr glm::uvec2 tileCount = {21, 10};
     static constexpr uint32_t tiles = tileCount.x * tileCount.y, splitTiles = 9,
-                              slices = splitTiles * gpu::SLICES, blocks = 60, largeBlocks = 7;
+                              slices = splitTiles * gpu::SLICES, blocks = 60;
     static constexpr uint32_t firstSlice = tiles, firstBlock = firstSlice + slices,
-                              firstLarge = firstBlock + blocks, clusters = firstLarge + largeBlocks;
+                              clusters = firstBlock + blocks;
     gpu::TreeShape tree{};
     std::vector<glm::vec4> core;
     std::vector<gpu::Cluster> cluster;
@@ -124,20 +124,16 @@ void addTiles(Scene& s, float share, std::mt19937& random)
             s.tile.push_back({i, 0, 7, gpu::UNSPLIT, (i % 2) << gpu::CLASS_BITS});
 }
 
-// `largest`: length of the boxes of large blocks, as a share of the cube.
-Scene randomScene(uint32_t lights, uint32_t seed, float largest = 0.6f)
+// `blockLength`: length of the boxes of blocks, as a share of the cube.
+Scene randomScene(uint32_t lights, uint32_t seed, float blockLength = 0.3f)
 {
     Scene s;
     std::mt19937 random(seed);
     addLights(s, lights, random);
     s.cluster.resize(Scene::clusters);
     s.cluster[0] = {.min = {-10, -10, -40}, .max = {10, 10, -20}};
-    for (uint32_t i = Scene::firstLarge; i < Scene::clusters; ++i)
-        s.cluster[i] = clusterIn(s, 0, largest, random);
-    for (uint32_t i = Scene::firstBlock; i < Scene::firstLarge; ++i) {
-        const uint32_t large = Scene::firstLarge + uint32_t(random()) % Scene::largeBlocks;
-        s.cluster[i] = clusterIn(s, large, 0.5f, random);
-    }
+    for (uint32_t i = Scene::firstBlock; i < Scene::clusters; ++i)
+        s.cluster[i] = clusterIn(s, 0, blockLength, random);
     addTiles(s, 0.5f, random);
     return s;
 }
@@ -157,15 +153,9 @@ Scene blockScene(uint32_t seed, float reach, float share)
     s.tree = {.firstLight = 3, .firstNode = 1};
     s.core.resize(2 * s.tree.firstLight);
     s.cluster.resize(Scene::clusters);
-    constexpr uint32_t perLarge = gpu::divideUp(Scene::blocks, Scene::largeBlocks);
     for (uint32_t i = 0; i < Scene::blocks; ++i) {
         const glm::vec3 middle(100 * i, 0, -30);
-        gpu::Cluster& large = s.cluster[Scene::firstLarge + i / perLarge];
-        if (i % perLarge == 0)
-            large = {.min = middle - 2.0f};
-        large.max = middle + 2.0f;
-        s.cluster[Scene::firstBlock + i] = {
-            .min = middle - 2.0f, .max = middle + 2.0f, .parent = Scene::firstLarge + i / perLarge};
+        s.cluster[Scene::firstBlock + i] = {.min = middle - 2.0f, .max = middle + 2.0f};
         const uint32_t lights = lightsOfBlocks[i % std::size(lightsOfBlocks)];
         for (uint32_t k = 0; k < lights; ++k) {
             s.core.emplace_back(middle + 2.0f * glm::vec3(unit(random), unit(random), unit(random)),
@@ -277,8 +267,6 @@ void ClusterListsTest::recordLists(const gpu::Frame& f, const Scene& s, const Li
         k.dispatch(f, set, p, form.together ? lists : gpu::divideUp(lists, form.lanes));
         fullBarrier(f.cmd);
     };
-    dispatch(gpu::LISTS_OF_BLOCKS, Scene::firstLarge, Scene::largeBlocks, Scene::largeBlocks);
-    p.hasParents = 1;
     dispatch(gpu::LISTS_OF_BLOCKS, Scene::firstBlock, Scene::blocks, Scene::blocks);
     p.pageCount = limits.pages;
     p.longest = limits.longest;
@@ -446,8 +434,6 @@ TEST_F(ClusterListsTest, TilesAreOnTheWorkListsOfTheirHeights)
         s.tile.push_back({cluster, 0, 7, split ? 1 : gpu::UNSPLIT, (tile % 2) << gpu::CLASS_BITS});
         expected[split ? gpu::ANY_HEIGHT : c.expected].push_back(tile);
     }
-    for (uint32_t i = Scene::firstBlock; i < Scene::firstLarge; ++i)
-        s.cluster[i].parent = Scene::firstLarge;
     s.tree.lightCount = uint32_t(s.core.size() / gpu::LIGHT_CORE_STRIDE);
     const Made found = make(s, byLane, {.findsHeights = true}), unknown = make(s, byLane);
     for (uint32_t height = 0; height < gpu::TILE_HEIGHTS; ++height) {
@@ -473,7 +459,7 @@ TEST_F(ClusterListsTest, GroupsOfAnySizeMakeTheSame)
 TEST_F(ClusterListsTest, GroupsAndLanesMakeTheSameOfAMillionLights)
 {
     // Each walk is short enough for llvmpipe, which ends loops after 65535 turns.
-    const Scene scene = randomScene(1'000'000, 3, 0.25f);
+    const Scene scene = randomScene(1'000'000, 3, 0.125f);
     const Limits limits{.pages = 1u << 17};
     const Made lanes = make(scene, byLane, limits), group = make(scene, byGroup, limits);
     EXPECT_EQ(lightsOf(group), lightsOf(lanes));
@@ -503,7 +489,7 @@ TEST_F(ClusterListsTest, ClustersOfBlocksWithoutListsWalkTheTree)
         if (i >= Scene::firstBlock) {
             const bool tooLong = byParents[i].size() > 200;
             EXPECT_EQ(lanes.heads[i] == gpu::LIST_LONG, tooLong) << i;
-            blocksWithout += tooLong && i < Scene::firstLarge;
+            blocksWithout += tooLong;
             continue;
         }
         EXPECT_TRUE(std::ranges::includes(byParents[i], lights[i])) << i;
@@ -583,7 +569,7 @@ TEST_F(ClusterListsTest, ListsOfGroupsWithoutRoomAreMarked)
     };
     check(randomScene(5000, 6), 60, 0); // 0: this check does not need short lists
     // Blocks have lists, and the pages end among the lists of tiles that are made together.
-    check(blockScene(6, 1, 0.5f), 264, 10);
+    check(blockScene(6, 1, 0.5f), 232, 10);
 }
 
 // On devices that limit loops, lists that are too long to be walked, and unlisted clusters with too

@@ -43,7 +43,7 @@ bool clusterWithList(uint list, out uint at, out uint parent)
     parent = LIST_UNLISTED;
     if (!clusterOfList(list, at) || clusters[at].min.x > clusters[at].max.x)
         return false;
-    if (params.hasParents != 0u)
+    if (params.which != LISTS_OF_BLOCKS)
         parent = lists[clusters[at].parent];
     return true;
 }
