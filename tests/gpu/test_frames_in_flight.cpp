@@ -6,9 +6,15 @@
 #include "harness/full_tests.h"
 
 #include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <iostream>
 #include <map>
+#include <mutex>
 #include <numeric>
 #include <random>
+#include <thread>
 
 namespace candelabra::test
 {
@@ -335,6 +341,56 @@ TEST_F(StormOfFrames, SizesAndLightsEqualBrute)
     }
     checkAll();
     destroy();
+}
+
+// The same while a second thread edits the lights, one call after the other; a mutex keeps calls on
+// the module apart. With CANDELABRA_SOAK_SECONDS it lasts that long.
+TEST_F(StormOfFrames, LightsAreEditedByAnotherThread)
+{
+    const char* asked = std::getenv("CANDELABRA_SOAK_SECONDS");
+    const double seconds = asked ? std::atof(asked) : 0;
+    const auto began = std::chrono::steady_clock::now();
+    const auto elapsed = [&] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    };
+    create();
+    setLights();
+    std::mutex calls;
+    std::atomic<bool> done = false;
+    size_t edits = 0, frames = 0, framesWithEdits = 0;
+    std::thread editor([&] {
+        while (!done) {
+            {
+                const std::lock_guard lock(calls);
+                if (pick(8) == 0 || lights_.empty())
+                    setLights();
+                else
+                    moveLights();
+                ++edits;
+            }
+            std::this_thread::yield();
+        }
+    });
+    for (size_t seen = 0; (frames < 40 || elapsed() < seconds) && !HasFailure(); ++frames) {
+        const uint32_t index = uint32_t(frames) % slotCount;
+        check(index);
+        const std::lock_guard lock(calls);
+        framesWithEdits += edits != seen;
+        seen = edits;
+        const std::array<VkExtent2D, 2> sizes{VkExtent2D{1 + pick(maxWidth), 1 + pick(maxHeight)},
+                                              VkExtent2D{1 + pick(maxWidth), 1 + pick(maxHeight)}};
+        for (uint32_t v = 0; v < 2; ++v)
+            if (sizes[v].width > views_[v].desc.maxWidth ||
+                sizes[v].height > views_[v].desc.maxHeight)
+                recreate(views_[v], {maxWidth, maxHeight});
+        record(index, sizes);
+    }
+    done = true;
+    editor.join();
+    checkAll();
+    destroy();
+    std::cout << frames << " frames, " << edits << " edits\n";
+    EXPECT_GE(framesWithEdits, 10u);
 }
 
 } // namespace candelabra::test
