@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "exposure/exposure.h"
+#include "exposure/exposure_module.h"
 
 namespace candelabra::exposure
 {

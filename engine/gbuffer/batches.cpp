@@ -10,7 +10,7 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
-#include "gbuffer/camera.h"
+#include "gbuffer/camera_terms.h"
 
 namespace candelabra::gbuffer
 {

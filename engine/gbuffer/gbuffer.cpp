@@ -12,7 +12,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "candelabra_gbuffer_shaders.h"
-#include "gbuffer/camera.h"
+#include "gbuffer/camera_terms.h"
 #include "gbuffer/emitters.h"
 #include "gbuffer/geometry_impl.h"
 #include "gbuffer/pass_barriers.h"

@@ -12,9 +12,9 @@
 
 #include "candelabra/candelabra.h"
 #include "gpu/failure.h"
+#include "lights/abi_vectors.h"
 #include "lights/light_types.h"
 #include "lights/polygon.h"
-#include "lights/vectors.h"
 
 using namespace candelabra;
 

@@ -12,7 +12,7 @@
 #include <glm/vec3.hpp>
 
 #include "gpu/failure.h"
-#include "lights/vectors.h"
+#include "lights/abi_vectors.h"
 #include "shared/lighting.h"
 
 namespace candelabra::lighting

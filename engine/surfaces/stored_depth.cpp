@@ -5,7 +5,7 @@
 #include <string>
 
 #include "gpu/failure.h"
-#include "surfaces/camera.h"
+#include "surfaces/projection.h"
 
 namespace candelabra::surfaces
 {

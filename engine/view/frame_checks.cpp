@@ -4,7 +4,7 @@
 #include <bit>
 #include <string>
 
-#include "surfaces/camera.h"
+#include "surfaces/projection.h"
 
 namespace candelabra::lighting
 {

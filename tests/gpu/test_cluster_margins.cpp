@@ -11,7 +11,7 @@
 #include "gpu/lighting_harness.h"
 #include "gpu/probe.h"
 #include "shared/margins_probe.h"
-#include "surfaces/camera.h"
+#include "surfaces/projection.h"
 
 namespace candelabra::test
 {

@@ -9,7 +9,7 @@
 #include <numeric>
 #include <string>
 
-#include "reference/exposure.h"
+#include "reference/eye_adaptation.h"
 
 namespace candelabra::test
 {

@@ -7,7 +7,7 @@
 #include <functional>
 #include <string>
 
-#include "reference/exposure.h"
+#include "reference/eye_adaptation.h"
 #include "reference/tone_map.h"
 
 namespace candelabra::test

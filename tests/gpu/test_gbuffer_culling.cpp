@@ -6,7 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
-#include "gbuffer/camera.h"
+#include "gbuffer/camera_terms.h"
 #include "gbuffer/geometry_impl.h"
 #include "gpu/gbuffer_harness.h"
 

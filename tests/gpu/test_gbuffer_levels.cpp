@@ -7,7 +7,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "gbuffer/batches.h"
-#include "gbuffer/camera.h"
+#include "gbuffer/camera_terms.h"
 #include "gbuffer/geometry_impl.h"
 #include "gbuffer/meshes.h"
 #include "gpu/gbuffer_harness.h"

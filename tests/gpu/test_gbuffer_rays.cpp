@@ -8,7 +8,7 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
-#include "gbuffer/camera.h"
+#include "gbuffer/camera_terms.h"
 #include "gpu/raster_rays.h"
 #include "harness/constants.h"
 #include "io/hash.h"

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "exposure/exposure.h"
+#include "exposure/exposure_module.h"
 #include "harness/constants.h"
 
 namespace candelabra::test

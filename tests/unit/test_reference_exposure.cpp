@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "harness/constants.h"
-#include "reference/exposure.h"
+#include "reference/eye_adaptation.h"
 #include "test_reference_support.h"
 
 namespace candelabra::test

@@ -9,7 +9,7 @@
 #include <imgui.h>
 
 #include "io/table.h"
-#include "reference/exposure.h"
+#include "reference/eye_adaptation.h"
 #include "render/heat_map_legend.h"
 #include "render/setting_names.h"
 #include "scene/light_types.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "reference/exposure.h"
+#include "reference/eye_adaptation.h"
 #include "reference/tone_map.h"
 
 namespace candelabra::app

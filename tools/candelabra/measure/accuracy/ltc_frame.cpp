@@ -4,8 +4,8 @@
 #include <cstring>
 
 #include "candelabra_bench_shaders.h"
+#include "lights/abi_vectors.h"
 #include "lights/light_limits.h"
-#include "lights/vectors.h"
 #include "measure/kernels/vectors.h"
 
 namespace candelabra::app

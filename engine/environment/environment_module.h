@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The environment module, which environment.h of the public headers declares: lights surfaces by an
-// image of the far surroundings.
+// The environment module, which candelabra/environment.h declares: lights surfaces by an image
+// of the far surroundings.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "environment/environment.h"
+#include "environment/environment_module.h"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@
 #include <glm/matrix.hpp>
 
 #include "candelabra_shaders.h"
-#include "surfaces/camera.h"
+#include "surfaces/projection.h"
 
 namespace candelabra::environment
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "exposure/exposure.h"
+#include "exposure/exposure_module.h"
 
 #include <algorithm>
 #include <cmath>

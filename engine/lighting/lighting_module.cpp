@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lighting/lighting.h"
+#include "lighting/lighting_module.h"
 
 #include <string>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gbuffer/camera.h"
+#include "gbuffer/camera_terms.h"
 
 #include <algorithm>
 #include <cmath>

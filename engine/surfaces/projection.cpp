@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "surfaces/camera.h"
+#include "surfaces/projection.h"
 
 #include <cmath>
 #include <cstring>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/exposure.h"
+#include "reference/eye_adaptation.h"
 
 #include <algorithm>
 #include <bit>

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "gpu/planning.h"
-#include "lighting/lighting.h"
+#include "lighting/lighting_module.h"
 #include "lights/light_limits.h"
 
 using namespace candelabra;

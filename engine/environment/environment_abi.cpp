@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The C ABI of the environment module.
-#include "environment/environment.h"
+#include "environment/environment_module.h"
 #include "gpu/planning.h"
 
 using namespace candelabra;

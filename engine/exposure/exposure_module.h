@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The exposure module, which exposure.h of the public headers declares: histogram, adaptation and
-// tone mapping of one view.
+// The exposure module, which candelabra/exposure.h declares: histogram, adaptation and tone
+// mapping of one view.
 #pragma once
 
 #include <array>

@@ -2,7 +2,7 @@
 // The C ABI of the exposure module.
 #include <string>
 
-#include "exposure/exposure.h"
+#include "exposure/exposure_module.h"
 #include "gpu/planning.h"
 
 using namespace candelabra;
