@@ -126,6 +126,20 @@ struct Lobe {
     glm::dvec3 stretched(const glm::dvec3& a) const { return {a.x, a.y, alpha * a.z}; }
 };
 
+// Returns where an integral over a curve is divided: at its ends, and next to the mirror direction,
+// where a narrow lobe has its peak.
+std::vector<double> breaksOf(const Curve& c, const Lobe& lobe)
+{
+    const glm::dvec3 mirror(-lobe.v.x, 0, lobe.v.z);
+    const double nearest = std::atan2(glm::dot(mirror, c.sine), glm::dot(mirror, c.cosine));
+    std::vector<double> breaks = {c.low, c.high};
+    for (const double t : {nearest, nearest + 2 * pi, nearest - 2 * pi})
+        if (t > c.low && t < c.high)
+            breaks.push_back(t);
+    std::sort(breaks.begin(), breaks.end());
+    return breaks;
+}
+
 // Returns the integrals over the region with this outline (in world coordinates, counterclockwise
 // as seen from the receiver).
 //
@@ -175,16 +189,7 @@ LobeIntegral integrateRegion(const SurfacePoint& surface, double alpha,
             const glm::dvec3 b = glm::cross(fromCentre, dl);
             return std::array<double, 6>{a.x, a.y, a.z, b.x, b.y, b.z};
         };
-        // The peak of a narrow lobe is next to the mirror direction.
-        const glm::dvec3 mirror(-lobe.v.x, 0, lobe.v.z);
-        const double nearest = std::atan2(glm::dot(mirror, c.sine), glm::dot(mirror, c.cosine));
-        std::vector<double> breaks = {c.low, c.high};
-        for (const double t : {nearest, nearest + 2 * pi, nearest - 2 * pi})
-            if (t > c.low && t < c.high)
-                breaks.push_back(t);
-        std::sort(breaks.begin(), breaks.end());
-        const auto part =
-            integrate<6, 200>(std::span<const double>(breaks), 1e-12, negligible, integrand);
+        const auto part = integrate<6, 200>(breaksOf(c, lobe), 1e-12, negligible, integrand);
         phi += glm::dvec3(part.value[0], part.value[1], part.value[2]);
         irradiance += glm::dvec3(part.value[3], part.value[4], part.value[5]);
         out.converged = out.converged && part.converged;

@@ -85,6 +85,44 @@ Panel<N> kronrod(double low, double high, F& f)
     return panel;
 }
 
+// Adds `sign` times the integrals over a panel.
+template <size_t N>
+void addPanel(Integral<N>& sum, const Panel<N>& panel, double sign = 1)
+{
+    for (size_t n = 0; n < N; ++n) {
+        sum.value[n] += sign * panel.value[n];
+        sum.error[n] += sign * panel.error[n];
+    }
+}
+
+template <size_t Judged, size_t N>
+std::array<double, Judged> allowedErrors(const Integral<N>& sum, double relative, double absolute)
+{
+    double largest = 0;
+    for (size_t n = 0; n < Judged; ++n)
+        largest = std::max(largest, std::abs(sum.value[n]));
+    std::array<double, Judged> allowed;
+    for (size_t n = 0; n < Judged; ++n)
+        allowed[n] = std::max({relative * std::max(std::abs(sum.value[n]), 1e-3 * largest),
+                               absolute, std::numeric_limits<double>::min()});
+    return allowed;
+}
+
+// Returns the panel with the largest error in units of the allowed one.
+template <size_t N, size_t Judged>
+size_t worstPanel(std::span<const Panel<N>> panels, const std::array<double, Judged>& allowed)
+{
+    size_t worst = 0;
+    double worstExcess = -1;
+    for (size_t i = 0; i < panels.size(); ++i)
+        for (size_t n = 0; n < Judged; ++n)
+            if (const double excess = panels[i].error[n] / allowed[n]; excess > worstExcess) {
+                worstExcess = excess;
+                worst = i;
+            }
+    return worst;
+}
+
 } // namespace detail
 
 // Integrates f, which maps a double to std::array<double, N>, from the first to the last of
@@ -103,48 +141,25 @@ auto integrate(std::span<const double> breaks, double relative, double absolute,
     size_t count = 0;
     const auto add = [&](double low, double high) {
         panels[count] = detail::kronrod<N>(low, high, f);
-        for (size_t n = 0; n < N; ++n) {
-            sum.value[n] += panels[count].value[n];
-            sum.error[n] += panels[count].error[n];
-        }
-        ++count;
+        detail::addPanel(sum, panels[count++]);
     };
     for (size_t i = 0; i + 1 < breaks.size() && count < MaxPanels; ++i)
         if (breaks[i + 1] > breaks[i])
             add(breaks[i], breaks[i + 1]);
     for (;;) {
-        double largest = 0;
+        const auto allowed = detail::allowedErrors<Judged>(sum, relative, absolute);
+        sum.converged = true;
         for (size_t n = 0; n < Judged; ++n)
-            largest = std::max(largest, std::abs(sum.value[n]));
-        std::array<double, Judged> allowed;
-        bool done = true;
-        for (size_t n = 0; n < Judged; ++n) {
-            allowed[n] = std::max({relative * std::max(std::abs(sum.value[n]), 1e-3 * largest),
-                                   absolute, std::numeric_limits<double>::min()});
-            done = done && sum.error[n] <= allowed[n];
-        }
-        if (done || count + 1 > MaxPanels || count == 0) {
-            sum.converged = done;
+            sum.converged = sum.converged && sum.error[n] <= allowed[n];
+        if (sum.converged || count + 1 > MaxPanels || count == 0)
             break;
-        }
-        size_t worst = 0;
-        double worstExcess = -1;
-        for (size_t i = 0; i < count; ++i)
-            for (size_t n = 0; n < Judged; ++n)
-                if (const double excess = panels[i].error[n] / allowed[n]; excess > worstExcess) {
-                    worstExcess = excess;
-                    worst = i;
-                }
+        const size_t worst =
+            detail::worstPanel(std::span<const detail::Panel<N>>(panels.data(), count), allowed);
         const double low = panels[worst].low, high = panels[worst].high;
         const double middle = (low + high) / 2;
-        if (!(middle > low && middle < high)) { // the panel cannot be halved any more
-            sum.converged = false;
+        if (!(middle > low && middle < high)) // the panel cannot be halved any more
             break;
-        }
-        for (size_t n = 0; n < N; ++n) {
-            sum.value[n] -= panels[worst].value[n];
-            sum.error[n] -= panels[worst].error[n];
-        }
+        detail::addPanel(sum, panels[worst], -1);
         panels[worst] = panels[--count];
         add(low, middle);
         add(middle, high);
@@ -153,10 +168,7 @@ auto integrate(std::span<const double> breaks, double relative, double absolute,
     sum.value = {};
     sum.error = {};
     for (size_t i = 0; i < count; ++i)
-        for (size_t n = 0; n < N; ++n) {
-            sum.value[n] += panels[i].value[n];
-            sum.error[n] += panels[i].error[n];
-        }
+        detail::addPanel(sum, panels[i]);
     return sum;
 }
 
