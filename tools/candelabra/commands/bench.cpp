@@ -14,15 +14,10 @@ namespace candelabra::app
 void addBenchOutput(CLI::App& command, std::string& directory, std::string& json,
                     const std::string& name)
 {
-    command
-        .add_option("--out", directory,
-                    "directory for all output; it is created if it does not exist")
-        ->type_name("DIR")
-        ->capture_default_str();
-    command
-        .add_option("--json", json,
-                    fmt::format("JSON file with all figures (DIR/{}); - is standard output", name))
-        ->type_name("FILE");
+    addOption(command, "--out", directory, "DIR",
+              "directory for all output; it is created if it does not exist");
+    addOption(command, "--json", json, "FILE",
+              fmt::format("JSON file with all figures (DIR/{}); - is standard output", name));
 }
 
 std::string benchOutput(const std::string& directory, const std::string& option,

@@ -28,15 +28,6 @@ struct AccuracyArguments {
     std::string directory = "out", json, html;
 };
 
-PixelSize sizeOption(const std::string& option, const std::string& text)
-{
-    const auto size = parseSize(text);
-    if (!size || size->width > maxSide || size->height > maxSide)
-        throw UsageError(fmt::format("{} \"{}\": expected WIDTHxHEIGHT up to {} pixels a side",
-                                     option, text, maxSide));
-    return *size;
-}
-
 KernelLevelSettings kernelSettings(const AccuracyArguments& a)
 {
     KernelLevelSettings s;
@@ -107,20 +98,19 @@ int accuracy(const ProgramContext& program, const AccuracyArguments& a)
 
 void addOptions(CLI::App& command, AccuracyArguments& a)
 {
-    const auto add = [&](const char* name, std::string& value, const char* what, const char* type) {
-        command.add_option(name, value, what)->type_name(type)->capture_default_str();
-    };
-    add("--groups", a.groups,
-        "groups of 89 light directions for sphere lights; other shapes get a third as many", "N");
-    add("--rounds", a.rounds, "rounds of timed kernels; each round runs every variant once", "N");
-    add("--samples", a.samples, "samples per light of the method \"sampled\"", "N");
-    add("--size", a.size, "size of the images that are compared with the truth", "WxH");
-    add("--frames", a.frames, "timed frames of every method and scene, after one warm-up frame",
-        "N");
-    add("--seed", a.seed, "seed of the random groups and lights", "N");
+    addOption(command, "--groups", a.groups, "N",
+              "groups of 89 light directions for sphere lights; other shapes get a third as many");
+    addOption(command, "--rounds", a.rounds, "N",
+              "rounds of timed kernels; each round runs every variant once");
+    addOption(command, "--samples", a.samples, "N", "samples per light of the method \"sampled\"");
+    addOption(command, "--size", a.size, "WxH",
+              "size of the images that are compared with the truth");
+    addOption(command, "--frames", a.frames, "N",
+              "timed frames of every method and scene, after one warm-up frame");
+    addOption(command, "--seed", a.seed, "N", "seed of the random groups and lights");
     addBenchOutput(command, a.directory, a.json, "bench_accuracy.json");
-    command.add_option("--html", a.html, "HTML page with all results (DIR/bench_accuracy.html)")
-        ->type_name("FILE");
+    addOption(command, "--html", a.html, "FILE",
+              "HTML page with all results (DIR/bench_accuracy.html)");
     a.device.addTo(command);
 }
 

@@ -37,14 +37,8 @@ CullingSettings settingsOf(const CullingArguments& a)
             throw UsageError(
                 fmt::format("--scenes \"{}\": choose among hall, field, fence", a.scenes));
     s.sizes.clear();
-    for (const std::string& text : splitAtCommas(a.sizes)) {
-        const auto size = parseSize(text);
-        if (!size || size->width > maxSide || size->height > maxSide)
-            throw UsageError(fmt::format("--size \"{}\": expected WIDTHxHEIGHT,... up to {} "
-                                         "pixels a side",
-                                         a.sizes, maxSide));
-        s.sizes.push_back(*size);
-    }
+    for (const std::string& text : splitAtCommas(a.sizes))
+        s.sizes.push_back(sizeOption("--size", text));
     s.lights = unsignedListOption("--lights", a.lights, 1, 1'000'000);
     s.overlaps = unsignedListOption("--overlaps", a.overlaps, 1, 10'000);
     s.rounds = unsignedOption("--rounds", a.rounds, 1, 10'000);
@@ -90,17 +84,16 @@ void addBenchCulling(CLI::App& bench, Run& run)
         bench.add_subcommand("culling", "Compare the engine's times and light lists with 2D tiles, "
                                         "froxels, brute force and no culling");
     const auto a = std::make_shared<CullingArguments>();
-    const auto add = [&](const char* name, std::string& value, const char* what, const char* type) {
-        command->add_option(name, value, what)->type_name(type)->capture_default_str();
-    };
-    add("--scenes", a->scenes, "generated scenes to draw", "NAME,...");
-    add("--lights", a->lights, "numbers of lights, up to 1,000,000", "N,N,...");
-    add("--overlaps", a->overlaps, "mean numbers of lights that contribute to a pixel", "K,K,...");
-    add("--size", a->sizes, "image sizes", "WxH,...");
-    add("--rounds", a->rounds, "rounds; each round draws the frame once in every way", "N");
-    add("--brute-limit", a->bruteLimit,
-        "skip brute force, and report an estimate, if a frame would take longer", "SECONDS");
-    add("--seed", a->seed, "seed of the scenes and lights", "N");
+    addOption(*command, "--scenes", a->scenes, "NAME,...", "generated scenes to draw");
+    addOption(*command, "--lights", a->lights, "N,N,...", "numbers of lights, up to 1,000,000");
+    addOption(*command, "--overlaps", a->overlaps, "K,K,...",
+              "mean numbers of lights that contribute to a pixel");
+    addOption(*command, "--size", a->sizes, "WxH,...", "image sizes");
+    addOption(*command, "--rounds", a->rounds, "N",
+              "rounds; each round draws the frame once in every way");
+    addOption(*command, "--brute-limit", a->bruteLimit, "SECONDS",
+              "skip brute force, and report an estimate, if a frame would take longer");
+    addOption(*command, "--seed", a->seed, "N", "seed of the scenes and lights");
     addBenchOutput(*command, a->directory, a->json, "bench_culling.json");
     a->device.addTo(*command);
     command->footer(

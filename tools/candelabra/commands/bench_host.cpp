@@ -7,7 +7,6 @@
 
 #include "commands/bench_commands.h"
 #include "commands/messages.h"
-#include "commands/options.h"
 #include "io/error.h"
 #include "measure/host/host.h"
 #include "render/provenance.h"
@@ -55,14 +54,12 @@ void addBenchHost(CLI::App& bench, Run& run)
     CLI::App* command = bench.add_subcommand(
         "host", "Measure what moving, setting and updating lights costs on the CPU");
     const auto a = std::make_shared<HostArguments>();
-    const auto add = [&](const char* name, std::string& value, const char* what, const char* type) {
-        command->add_option(name, value, what)->type_name(type)->capture_default_str();
-    };
-    add("--lights", a->lights, "numbers of sphere lights of the hall, up to 1,000,000", "N,N,...");
-    add("--rounds", a->rounds, "rounds; each round makes every call once", "N");
-    add("--seed", a->seed, "seed of the lights", "N");
-    command->add_option("--json", a->json, "JSON file with all figures; - is standard output")
-        ->type_name("FILE");
+    addOption(*command, "--lights", a->lights, "N,N,...",
+              "numbers of sphere lights of the hall, up to 1,000,000");
+    addOption(*command, "--rounds", a->rounds, "N", "rounds; each round makes every call once");
+    addOption(*command, "--seed", a->seed, "N", "seed of the lights");
+    addOption(*command, "--json", a->json, "FILE",
+              "JSON file with all figures; - is standard output");
     a->device.addTo(*command);
     command->footer(
         "The calls:\n"

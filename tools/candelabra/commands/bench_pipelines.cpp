@@ -5,12 +5,10 @@
 #include <fmt/format.h>
 
 #include "commands/bench_commands.h"
-#include "commands/options.h"
 #include "io/error.h"
 #include "measure/pipelines/pipelines.h"
 #include "render/provenance.h"
 #include "render/setting_names.h"
-#include "scene/light_types.h"
 
 namespace candelabra::app
 {
@@ -21,23 +19,6 @@ struct PipelineArguments {
     std::string device, kernels, types, methods, json;
     bool noClasses = false, others = false;
 };
-
-uint32_t typesOf(const std::string& text)
-{
-    std::string known;
-    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
-        known += (type ? ", " : "") + std::string(lightTypeName(type));
-    uint32_t mask = 0;
-    for (const std::string& name : splitAtCommas(text)) {
-        uint32_t type = 0;
-        while (type < CND_LIGHT_TYPE_COUNT && name != lightTypeName(type))
-            ++type;
-        if (type == CND_LIGHT_TYPE_COUNT)
-            throw UsageError(fmt::format("--types \"{}\": choose among {}", text, known));
-        mask |= 1u << type;
-    }
-    return mask;
-}
 
 uint32_t methodsOf(const std::string& text)
 {
@@ -52,8 +33,11 @@ int pipelines(const ProgramContext& program, const PipelineArguments& a)
     PipelineSettings settings{.device = a.device, .diffuseOnlyTiles = !a.noClasses};
     if (!a.kernels.empty())
         settings.kernels = splitAtCommas(a.kernels);
-    if (!a.types.empty())
-        settings.lightTypes = typesOf(a.types);
+    if (!a.types.empty()) {
+        settings.lightTypes = 0;
+        for (const uint32_t type : lightTypesOption("--types", a.types))
+            settings.lightTypes |= 1u << type;
+    }
     if (!a.methods.empty())
         settings.methods = methodsOf(a.methods);
     if (!a.json.empty())
@@ -77,19 +61,18 @@ void addBenchPipelines(CLI::App& bench, Run& run)
         "pipelines",
         "List the registers, spills and size of every pipeline, as the driver reports them");
     const auto a = std::make_shared<PipelineArguments>();
-    const auto add = [&](const char* name, std::string& value, const char* what, const char* type) {
-        command->add_option(name, value, what)->type_name(type);
-    };
-    add("--kernels", a->kernels, "compile these kernels only, such as shade_tiles,cluster_lists",
-        "NAME,...");
-    add("--types", a->types, "compile shading kernels for these light types only", "NAME,...");
-    add("--methods", a->methods, "compile shading kernels for these methods only", "NAME,...");
+    addOption(*command, "--kernels", a->kernels, "NAME,...",
+              "compile these kernels only, such as shade_tiles,cluster_lists");
+    addOption(*command, "--types", a->types, "NAME,...",
+              "compile shading kernels for these light types only");
+    addOption(*command, "--methods", a->methods, "NAME,...",
+              "compile shading kernels for these methods only");
     command->add_flag("--no-classes", a->noClasses,
                       "skip the kernels for tiles without a specular lobe");
-    add("--device", a->device,
-        "Vulkan device, by its index or part of its name; it need not be able to draw",
-        "INDEX|NAME");
-    add("--json", a->json, "JSON file with all figures; - is standard output", "FILE");
+    addOption(*command, "--device", a->device, "INDEX|NAME",
+              "Vulkan device, by its index or part of its name; it need not be able to draw");
+    addOption(*command, "--json", a->json, "FILE",
+              "JSON file with all figures; - is standard output");
     command->add_flag("--all-statistics", a->others,
                       "write everything that the driver reports to the JSON file");
     command->footer(

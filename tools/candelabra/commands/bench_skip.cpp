@@ -10,7 +10,6 @@
 #include "candelabra/candelabra.hpp"
 #include "commands/bench_commands.h"
 #include "commands/messages.h"
-#include "commands/options.h"
 #include "io/error.h"
 #include "io/progress.h"
 #include "io/statistics.h"
@@ -87,10 +86,7 @@ std::vector<double> timesOf(const FrameSeries& series, const SkipPair& pair)
 
 int skip(const ProgramContext& program, const SkipArguments& a)
 {
-    const auto size = parseSize(a.size);
-    if (!size || size->width > maxSide || size->height > maxSide)
-        throw UsageError(fmt::format("--size \"{}\": expected WIDTHxHEIGHT up to {} pixels a side",
-                                     a.size, maxSide));
+    const PixelSize size = sizeOption("--size", a.size);
     const uint32_t lights = unsignedOption("--lights", a.lights, 1, 1'000'000);
     const uint32_t rounds = unsignedOption("--rounds", a.rounds, 1, 10'000);
     a.device.requireRoomFor(lights);
@@ -101,7 +97,7 @@ int skip(const ProgramContext& program, const SkipArguments& a)
                              .exposure = defaultExposureSettings()};
     const VulkanContext context(a.device.contextOptions());
     spdlog::info("skips on {}", context.info().name);
-    Renderer renderer(context, scene, {.size = *size, .framesInFlight = 1, .stamps = true});
+    Renderer renderer(context, scene, {.size = size, .framesInFlight = 1, .stamps = true});
     const std::vector<float> image = imageOf(context, renderer, usual);
     const std::vector<SkipPair> pairs = pairsOf(usual, renderer.stats(0).exposure.adaptedEv100);
     Table table({"what is left out", "against", "passes", "with ms", "without ms",
@@ -134,8 +130,8 @@ int skip(const ProgramContext& program, const SkipArguments& a)
     writeJson(json, {{"schema", "candelabra bench skip 2"},
                      {"provenance", provenance(context.info(), program.commandLine)},
                      {"scene", a.scene},
-                     {"widthPixels", size->width},
-                     {"heightPixels", size->height},
+                     {"widthPixels", size.width},
+                     {"heightPixels", size.height},
                      {"lights", lights},
                      {"rounds", rounds},
                      {"skips", list}});
@@ -151,13 +147,11 @@ void addBenchSkip(CLI::App& bench, Run& run)
     CLI::App* command = bench.add_subcommand(
         "skip", "Measure what a frame saves by skipping what its content does not need");
     const auto a = std::make_shared<SkipArguments>();
-    const auto add = [&](const char* name, std::string& value, const char* what, const char* type) {
-        command->add_option(name, value, what)->type_name(type)->capture_default_str();
-    };
-    add("--scene", a->scene, "scene to draw", "NAME");
-    add("--lights", a->lights, "number of sphere lights, up to 1,000,000", "N");
-    add("--size", a->size, "image size", "WxH");
-    add("--rounds", a->rounds, "rounds; each round draws both frames of a pair once", "N");
+    addOption(*command, "--scene", a->scene, "NAME", "scene to draw");
+    addOption(*command, "--lights", a->lights, "N", "number of sphere lights, up to 1,000,000");
+    addOption(*command, "--size", a->size, "WxH", "image size");
+    addOption(*command, "--rounds", a->rounds, "N",
+              "rounds; each round draws both frames of a pair once");
     addBenchOutput(*command, a->directory, a->json, "bench_skip.json");
     a->device.addTo(*command);
     command->footer(

@@ -12,7 +12,6 @@
 #include "measure/stability/stability.h"
 #include "render/provenance.h"
 #include "render/setting_names.h"
-#include "scene/light_types.h"
 
 namespace candelabra::app
 {
@@ -27,27 +26,6 @@ struct StabilityArguments {
     std::string directory = "out", json;
 };
 
-std::vector<std::string> namesOf(const std::string& text)
-{
-    return text.empty() ? std::vector<std::string>() : splitAtCommas(text);
-}
-
-// Returns the types with these names.
-std::vector<uint32_t> lightTypesOption(const std::string& text)
-{
-    std::vector<uint32_t> out;
-    for (const std::string& name : namesOf(text)) {
-        uint32_t type = 0;
-        std::string all;
-        for (; type < CND_LIGHT_TYPE_COUNT && name != lightTypeName(type); ++type)
-            all += (type > 0 ? ", " : "") + std::string(lightTypeName(type));
-        if (type == CND_LIGHT_TYPE_COUNT)
-            throw UsageError(fmt::format("--light-types \"{}\": choose from {}", text, all));
-        out.push_back(type);
-    }
-    return out;
-}
-
 int stability(const ProgramContext& program, const StabilityArguments& a)
 {
     StabilitySettings settings;
@@ -56,9 +34,11 @@ int stability(const ProgramContext& program, const StabilityArguments& a)
     settings.sweeps = unsignedOption("--sweeps", a.sweeps, 1, 100'000);
     settings.seed = unsignedOption("--seed", a.seed, 0, UINT32_MAX);
     settings.inexactDivision = a.inexactDivision;
-    settings.lightTypes = lightTypesOption(a.lights);
-    for (const std::string& name : namesOf(a.specular))
-        settings.methods.push_back(chooseSpecular("--specular", name));
+    if (!a.lights.empty())
+        settings.lightTypes = lightTypesOption("--light-types", a.lights);
+    if (!a.specular.empty())
+        for (const std::string& name : splitAtCommas(a.specular))
+            settings.methods.push_back(chooseSpecular("--specular", name));
     const std::string json = benchOutput(a.directory, "--json", a.json, "bench_stability.json");
     const VulkanContext context(a.device.contextOptions());
     spdlog::info("stability on {}", context.info().name);
@@ -93,26 +73,15 @@ void addBenchStability(CLI::App& bench, Run& run)
         "stability",
         "Try random and adversarial inputs, count invalid responses, and measure errors and jumps");
     const auto a = std::make_shared<StabilityArguments>();
-    command
-        ->add_option("--configs", a->configurations,
-                     "total number of configurations; 1e8 take minutes on two CPU cores")
-        ->type_name("N")
-        ->capture_default_str();
-    command
-        ->add_option("--quadrature", a->quadrature,
-                     "total number of configurations to compare with quadrature")
-        ->type_name("N")
-        ->capture_default_str();
-    command->add_option("--sweeps", a->sweeps, "number of sweeps per continuity check")
-        ->type_name("N")
-        ->capture_default_str();
-    command->add_option("--seed", a->seed, "seed of all random inputs")
-        ->type_name("N")
-        ->capture_default_str();
-    command->add_option("--light-types", a->lights, "light types to try; default: all")
-        ->type_name("TYPE,...");
-    command->add_option("--specular", a->specular, "specular methods to try; default: all")
-        ->type_name("METHOD,...");
+    addOption(*command, "--configs", a->configurations, "N",
+              "total number of configurations; 1e8 take minutes on two CPU cores");
+    addOption(*command, "--quadrature", a->quadrature, "N",
+              "total number of configurations to compare with quadrature");
+    addOption(*command, "--sweeps", a->sweeps, "N", "number of sweeps per continuity check");
+    addOption(*command, "--seed", a->seed, "N", "seed of all random inputs");
+    addOption(*command, "--light-types", a->lights, "TYPE,...", "light types to try; default: all");
+    addOption(*command, "--specular", a->specular, "METHOD,...",
+              "specular methods to try; default: all");
     command->add_flag("--inexact-division", a->inexactDivision,
                       "make every quotient and root as inaccurate as Vulkan allows, so that any "
                       "device shows the effect of rounding on GPUs; skips the continuity checks");

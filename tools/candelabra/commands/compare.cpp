@@ -279,17 +279,14 @@ void addCompareCommand(CLI::App& app, Run& run)
         "--paired", a->paired,
         "compare the n-th run of A with the n-th run of B, which was made next to it; this removes "
         "slow drifts of the machine and needs at least 6 runs of each");
-    command
-        ->add_option("--tolerance", a->tolerance,
-                     "set the exit code to 3 only if something is slower by more than this")
-        ->type_name("PERCENT")
-        ->capture_default_str();
+    addOption(*command, "--tolerance", a->tolerance, "PERCENT",
+              "set the exit code to 3 only if something is slower by more than this");
     command->add_flag("--force", a->force,
                       "compare runs even if their devices, scenes, sizes, paths, numbers of frames "
                       "or of frames in "
                       "flight differ");
-    command->add_option("--json", a->json, "JSON file with all figures; - is standard output")
-        ->type_name("FILE");
+    addOption(*command, "--json", a->json, "FILE",
+              "JSON file with all figures; - is standard output");
     command->footer(
         "A run is one call of profile. The comparison uses the shortest time of each pass\n"
         "over the frames of a run, because a busy machine affects it least. With a camera\n"

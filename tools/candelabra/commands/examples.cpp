@@ -46,9 +46,7 @@ void addExamplesCommand(CLI::App& app, Run& run)
         "examples", "Write small example files: scene.glb, scene.json and sky.hdr");
     const auto directory = std::make_shared<std::string>(".");
     const auto replace = std::make_shared<bool>(false);
-    command->add_option("directory", *directory, "directory for the files")
-        ->type_name("DIR")
-        ->capture_default_str();
+    addOption(*command, "directory", *directory, "DIR", "directory for the files");
     command->add_flag("--replace", *replace, "replace existing files");
     command->footer("Examples:\n"
                     "  candelabra examples && candelabra render scene.glb -o scene.png");

@@ -9,12 +9,12 @@
 #include <spdlog/spdlog.h>
 
 #include "candelabra/candelabra.hpp"
-#include "commands/choice_option.h"
 #include "generate/generators.h"
 #include "io/table.h"
 #include "render/camera.h"
 #include "render/setting_names.h"
 #include "scene/fit_camera.h"
+#include "scene/light_types.h"
 #include "scene/scene_options.h"
 
 namespace candelabra::app
@@ -59,23 +59,48 @@ std::vector<uint32_t> unsignedListOption(const std::string& option, const std::s
     return out;
 }
 
+PixelSize sizeOption(const std::string& option, const std::string& text)
+{
+    const auto size = parseSize(text);
+    if (!size || size->width > maxSide || size->height > maxSide)
+        throw UsageError(fmt::format("{} \"{}\": expected WIDTHxHEIGHT up to {} pixels a side",
+                                     option, text, maxSide));
+    return *size;
+}
+
+std::vector<uint32_t> lightTypesOption(const std::string& option, const std::string& text)
+{
+    std::vector<uint32_t> out;
+    for (const std::string& name : splitAtCommas(text)) {
+        uint32_t type = 0;
+        std::string all;
+        for (; type < CND_LIGHT_TYPE_COUNT && name != lightTypeName(type); ++type)
+            all += (type > 0 ? ", " : "") + std::string(lightTypeName(type));
+        if (type == CND_LIGHT_TYPE_COUNT)
+            throw UsageError(fmt::format("{} \"{}\": choose from {}", option, text, all));
+        out.push_back(type);
+    }
+    return out;
+}
+
+CLI::Option* addOption(CLI::App& command, const std::string& names, std::string& text,
+                       const char* type, const std::string& what)
+{
+    return command.add_option(names, text, what)->type_name(type)->capture_default_str();
+}
+
 void addWarmUpTo(CLI::App& command, std::string& seconds)
 {
-    command
-        .add_option("--warm-up", seconds,
-                    "draw warm-up frames for at least this long, because the clock of an idle GPU "
-                    "rises slowly")
-        ->type_name("SECONDS")
-        ->capture_default_str();
+    addOption(command, "--warm-up", seconds, "SECONDS",
+              "draw warm-up frames for at least this long, because the clock of an idle GPU rises "
+              "slowly");
 }
 
 void DeviceArguments::addTo(CLI::App& command)
 {
-    command
-        .add_option("--device", device,
-                    "Vulkan device, by its index or part of its name as `candelabra devices` lists "
-                    "them; default: a discrete GPU, else an integrated one, else a CPU")
-        ->type_name("INDEX|NAME");
+    addOption(command, "--device", device, "INDEX|NAME",
+              "Vulkan device, by its index or part of its name as `candelabra devices` lists them; "
+              "default: a discrete GPU, else an integrated one, else a CPU");
     command.add_flag("--validate", validate,
                      "run with the Vulkan validation layers; messages go to stderr, and any "
                      "message sets the exit code to 1");
@@ -125,54 +150,34 @@ void SceneArguments::addTo(CLI::App& command, const std::string& fallback)
 {
     scene = fallback;
     CLI::Option* option =
-        command
-            .add_option(fallback.empty() ? "scene" : "scene,--scene", scene,
-                        "hall, field, fence, showcase, or the path of a .gltf, .glb or "
-                        "scene .json file")
-            ->type_name("SCENE");
+        addOption(command, fallback.empty() ? "scene" : "scene,--scene", scene, "SCENE",
+                  "hall, field, fence, showcase, or the path of a .gltf, .glb or scene .json file");
     if (fallback.empty())
         option->required();
-    else
-        option->capture_default_str();
-    command.add_option("--seed", seed, "seed of all random numbers in the scene (1)")
-        ->type_name("S");
-    command
-        .add_option("--overlaps", overlaps,
-                    "mean number of generated lights that contribute to a pixel; sets their radius "
-                    "of influence (8)")
-        ->type_name("K");
+    addOption(command, "--seed", seed, "S", "seed of all random numbers in the scene (1)");
+    addOption(command, "--overlaps", overlaps, "K",
+              "mean number of generated lights that contribute to a pixel; sets their radius of "
+              "influence (8)");
     command.add_flag("--moving", moving,
                      "let the lights move; lights that a file has stay where they are");
-    command
-        .add_option("--punctual-radius", punctualRadius,
-                    "glTF files: point lights without a radius become spheres of this radius (m)")
-        ->type_name("METRES");
-    command
-        .add_option("--sun-radius", sunRadius,
-                    "glTF files: directional lights become distant spheres whose angular radius "
-                    "has this sine (the Sun: 0.00465)")
-        ->type_name("SINE");
+    addOption(command, "--punctual-radius", punctualRadius, "METRES",
+              "glTF files: point lights without a radius become spheres of this radius (m)");
+    addOption(command, "--sun-radius", sunRadius, "SINE",
+              "glTF files: directional lights become distant spheres whose angular radius has this "
+              "sine (the Sun: 0.00465)");
     command.add_flag("--emissive-lights", emissiveLights,
                      "glTF files: flat rectangles whose material emits become area lights");
-    command
-        .add_option("--environment", environment,
-                    "light the scene from all directions with an equirectangular image in cd/m^2 "
-                    "(.hdr, .exr or .pfm) whose top is up; it is also visible as the background")
-        ->type_name("FILE");
-    command
-        .add_option(
-            "--environment-rotation", environmentRotation,
-            "rotate the environment about the vertical, counter-clockwise when seen from above (0)")
-        ->type_name("DEGREES");
-    command
-        .add_option("--environment-scale", environmentScale,
-                    "factor for the environment's luminance (1)")
-        ->type_name("FACTOR");
-    command
-        .add_option("--environment-illuminance", environmentIlluminance,
-                    "scale the environment to give level ground this illuminance; a clear sky "
-                    "without the sun gives about 15,000 lx, a full moon 0.2 lx")
-        ->type_name("LX");
+    addOption(command, "--environment", environment, "FILE",
+              "light the scene from all directions with an equirectangular image in cd/m^2 (.hdr, "
+              ".exr or .pfm) whose top is up; it is also visible as the background");
+    addOption(
+        command, "--environment-rotation", environmentRotation, "DEGREES",
+        "rotate the environment about the vertical, counter-clockwise when seen from above (0)");
+    addOption(command, "--environment-scale", environmentScale, "FACTOR",
+              "factor for the environment's luminance (1)");
+    addOption(command, "--environment-illuminance", environmentIlluminance, "LX",
+              "scale the environment to give level ground this illuminance; a clear sky without "
+              "the sun gives about 15,000 lx, a full moon 0.2 lx");
     lobes.addTo(command);
 }
 
@@ -186,11 +191,9 @@ void SceneArguments::addDefaultLightTo(CLI::App& command)
 
 void SceneArguments::addLightsTo(CLI::App& command)
 {
-    command
-        .add_option("--lights", lightsOption,
-                    "number of sphere lights in hall, field and fence (4000); a file gets this "
-                    "many random lights in addition to its own")
-        ->type_name("N");
+    addOption(command, "--lights", lightsOption, "N",
+              "number of sphere lights in hall, field and fence (4000); a file gets this many "
+              "random lights in addition to its own");
 }
 
 std::optional<uint32_t> SceneArguments::lightCount() const
@@ -268,20 +271,15 @@ void SceneArguments::warnOfIdleOptions(std::optional<uint32_t> lights) const
 
 void FrameArguments::addViewTo(CLI::App& command)
 {
-    command
-        .add_option("--size", size,
-                    "image size in pixels; default: the scene's size, else 1280x720")
-        ->type_name("WxH");
-    command
-        .add_option(
-            "--camera", camera,
-            "camera of the scene by name (hall: nave, gallery; field: terrace, overview; fence: "
-            "path, above; showcase: front, above; glTF files: their own, then three-quarter, "
-            "front, right, back, left and above, and in rooms inside and inside-2) or by index, or "
-            "a new camera: position and target in metres, and vertical field of view in degrees; "
-            "default: the scene's first, or the first automatic one if the file's own cameras show "
-            "the scene less than half as wide and as high as the picture")
-        ->type_name("NAME|INDEX|px,py,pz,tx,ty,tz[,fov]");
+    addOption(command, "--size", size, "WxH",
+              "image size in pixels; default: the scene's size, else 1280x720");
+    addOption(command, "--camera", camera, "NAME|INDEX|px,py,pz,tx,ty,tz[,fov]",
+              "camera of the scene by name (hall: nave, gallery; field: terrace, overview; fence: "
+              "path, above; showcase: front, above; glTF files: their own, then three-quarter, "
+              "front, right, back, left and above, and in rooms inside and inside-2) or by index, "
+              "or a new camera: position and target in metres, and vertical field of view in "
+              "degrees; default: the scene's first, or the first automatic one if the file's own "
+              "cameras show the scene less than half as wide and as high as the picture");
     addChoice(command, "--lights-visible", lightsVisible, onOffChoices,
               "draw area lights as visible emitters (default: as the scene says)");
 }
@@ -290,35 +288,23 @@ void FrameArguments::addTo(CLI::App& command)
 {
     specular = specularName(CND_SPECULAR_CONIC);
     addViewTo(command);
-    command
-        .add_option("--exposure", exposure,
-                    "automatic, or a fixed EV100; with the studio of --default-light, auto uses "
-                    "the EV100 of its light")
-        ->type_name("auto|EV")
-        ->capture_default_str();
-    command
-        .add_option("--compensation", compensation,
-                    "make the picture brighter by this many EV; the night scenes hall, field, "
-                    "fence and showcase add -1 EV")
-        ->type_name("EV")
-        ->capture_default_str();
-    command
-        .add_option("--middle-grey", middleGrey,
-                    "exposure calibration: the exposed value of a surface with the metered "
-                    "luminance; every tone map displays 0.18 as middle grey, 118 of 255")
-        ->type_name("SHARE")
-        ->capture_default_str();
+    addOption(command, "--exposure", exposure, "auto|EV",
+              "automatic, or a fixed EV100; with the studio of --default-light, auto uses the "
+              "EV100 of its light");
+    addOption(command, "--compensation", compensation, "EV",
+              "make the picture brighter by this many EV; the night scenes hall, field, fence and "
+              "showcase add -1 EV");
+    addOption(command, "--middle-grey", middleGrey, "SHARE",
+              "exposure calibration: the exposed value of a surface with the metered luminance; "
+              "every tone map displays 0.18 as middle grey, 118 of 255");
     addChoice(command, "--metering", metering, meteringChoices,
               "how automatic exposure weights the pixels");
     addChoice(command, "--tonemap", toneMap, toneMapChoices, "tone map of the display image");
     addChoice(command, "--specular", specular, specularChoices,
               "method for the specular lobe; conic is the closed form, karis the representative "
               "point of Karis 2013, and sampled takes random samples");
-    command
-        .add_option("--samples", sampleCount,
-                    "samples per light and pixel of --specular sampled (1..4096)")
-        ->type_name("N")
-        ->capture_default_str();
+    addOption(command, "--samples", sampleCount, "N",
+              "samples per light and pixel of --specular sampled (1..4096)");
     addChoice(command, "--gbuffer", gbuffer, gbufferChoices, "layout of the G-buffer");
     addChoice(command, "--lod", lod, onOffChoices,
               "draw coarser levels of detail of meshes where that moves their surface by at most a "
@@ -330,12 +316,9 @@ void FrameArguments::addTo(CLI::App& command)
 
 void FrameArguments::addFitTo(CLI::App& command)
 {
-    command
-        .add_option(
-            "--fit", fit,
-            "move the camera, without turning it, until this node of a glTF file and everything "
-            "below it fill 85% of the picture; give the node's name or its number in the file")
-        ->type_name("NODE|INDEX");
+    addOption(command, "--fit", fit, "NODE|INDEX",
+              "move the camera, without turning it, until this node of a glTF file and everything "
+              "below it fill 85% of the picture; give the node's name or its number in the file");
 }
 
 void FrameArguments::addCullingTo(CLI::App& command)
@@ -364,12 +347,10 @@ void FrameArguments::addInfluenceTo(CLI::App& command)
 {
     addChoice(command, "--influence", influence, influenceChoices,
               "let lights reach as far as the influence radii of the scene, or everywhere");
-    command
-        .add_option("--influence-error", influenceError,
-                    "let lights reach as far as the display can show: all the light that is cut "
-                    "off changes no channel by more than this share of its range in total, at the "
-                    "exposure of the previous frame")
-        ->type_name("E, such as 0.5/255 or 0.002");
+    addOption(command, "--influence-error", influenceError, "E, such as 0.5/255 or 0.002",
+              "let lights reach as far as the display can show: all the light that is cut off "
+              "changes no channel by more than this share of its range in total, at the exposure "
+              "of the previous frame");
 }
 
 PixelSize FrameArguments::givenSize() const
@@ -420,11 +401,6 @@ CndSpecularMethod FrameArguments::specularMethod() const
     return chooseSpecular("--specular", specular);
 }
 
-uint32_t FrameArguments::samples() const
-{
-    return unsignedOption("--samples", sampleCount, 1, 4096);
-}
-
 CndCulling FrameArguments::cullingMode() const
 {
     return choose("--culling", culling, cullingChoices);
@@ -450,11 +426,6 @@ CndInfluence FrameArguments::influenceRule() const
     return {.rule = CND_INFLUENCE_BY_ERROR, .maxError = float(error)};
 }
 
-Reuse FrameArguments::reuseMode() const
-{
-    return choose("--reuse", reuse, reuseChoices);
-}
-
 HeatMap FrameArguments::heatMapMode() const
 {
     const HeatMap out = choose("--debug", heatMap, heatMapChoices);
@@ -468,16 +439,6 @@ std::optional<bool> FrameArguments::lightsVisibleOverride() const
     if (lightsVisible.empty())
         return std::nullopt;
     return choose("--lights-visible", lightsVisible, onOffChoices);
-}
-
-bool FrameArguments::levels() const
-{
-    return choose("--lod", lod, onOffChoices);
-}
-
-bool FrameArguments::trianglesCulled() const
-{
-    return choose("--cull-triangles", cullTriangles, onOffChoices);
 }
 
 CndExposureSettings FrameArguments::exposureSettings() const
@@ -496,6 +457,19 @@ CndExposureSettings FrameArguments::exposureSettings() const
     out.metering = choose("--metering", metering, meteringChoices);
     out.toneMap = choose("--tonemap", toneMap, toneMapChoices);
     return out;
+}
+
+FrameOptions FrameArguments::frameOptions() const
+{
+    return {.levels = choose("--lod", lod, onOffChoices),
+            .cullTriangles = choose("--cull-triangles", cullTriangles, onOffChoices),
+            .specular = specularMethod(),
+            .sampleCount = unsignedOption("--samples", sampleCount, 1, 4096),
+            .culling = cullingMode(),
+            .influence = influenceRule(),
+            .reuse = choose("--reuse", reuse, reuseChoices),
+            .heatMap = heatMapMode(),
+            .exposure = exposureSettings()};
 }
 
 } // namespace candelabra::app

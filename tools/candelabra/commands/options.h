@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "candelabra/candelabra.h"
+#include "io/choice.h"
 #include "io/parse.h"
 #include "render/renderer.h"
 #include "render/vulkan_context.h"
@@ -74,7 +75,7 @@ struct FrameArguments {
     std::string gbuffer = "full", specular, culling = "clustered";
     std::string sampleCount = "64";
     std::string influence = "given", influenceError;
-    std::string lightsVisible, reuse, heatMap = "none", lod = "on", cullTriangles = "on";
+    std::string lightsVisible, reuse = "none", heatMap = "none", lod = "on", cullTriangles = "on";
     std::string exposure = "auto", compensation = "0", metering = "centre", toneMap = "neutral";
     std::string middleGrey = "0.18";
 
@@ -95,24 +96,35 @@ struct FrameArguments {
     Camera chosenCamera(const Scene& scene) const;
     CndGBufferLayout gbufferLayout() const;
     CndSpecularMethod specularMethod() const;
-    uint32_t samples() const; // per light, of the specular method "sampled"
     CndCulling cullingMode() const;
     CndInfluence influenceRule() const; // its exposure is set by the renderer
-    Reuse reuseMode() const;
-    HeatMap heatMapMode() const; // throws if culling is not clustered
+    HeatMap heatMapMode() const;        // throws if culling is not clustered
     std::optional<bool> lightsVisibleOverride() const;
-    bool levels() const;          // FrameOptions::levels
-    bool trianglesCulled() const; // FrameOptions::cullTriangles
     CndExposureSettings exposureSettings() const;
+    FrameOptions frameOptions() const; // all of the above that a frame has, without its camera
 };
 
-// Read the number or the list of numbers in `text`. Throw a UsageError that names the option, its
+// Adds an option whose value is kept as text, which --help shows as the default.
+CLI::Option* addOption(CLI::App& command, const std::string& names, std::string& text,
+                       const char* type, const std::string& what);
+// Adds an option with a choice of names. The names are appended to the description.
+template <typename T, size_t N>
+void addChoice(CLI::App& command, const std::string& option, std::string& text,
+               const Choice<T> (&choices)[N], const std::string& what)
+{
+    addOption(command, option, text, "NAME",
+              what + ": " + names<T>(std::span<const Choice<T>>(choices)));
+}
+
+// Read the value or the list of values in `text`. Throw a UsageError that names the option, its
 // text and the range if it is something else.
 uint32_t unsignedOption(const std::string& option, const std::string& text, uint32_t min,
                         uint32_t max);
 double numberOption(const std::string& option, const std::string& text, double min, double max);
 std::vector<uint32_t> unsignedListOption(const std::string& option, const std::string& text,
                                          uint32_t min, uint32_t max);
+PixelSize sizeOption(const std::string& option, const std::string& text); // up to maxSide
+std::vector<uint32_t> lightTypesOption(const std::string& option, const std::string& text);
 
 // Adds the option --warm-up, whose value is a number of seconds from 0 to maxWarmUpSeconds.
 void addWarmUpTo(CLI::App& command, std::string& seconds);

@@ -38,25 +38,8 @@ struct ProfileArguments {
     bool append = false;
 };
 
-ProfilePath cameraPath(const std::string& text)
-{
-    if (text == "still")
-        return ProfilePath::Still;
-    if (text == "turn")
-        return ProfilePath::Turn;
-    throw UsageError("--path \"" + text + "\": choose one of still, turn");
-}
-
-FrameOptions frameOptions(const FrameArguments& frame)
-{
-    return {.levels = frame.levels(),
-            .cullTriangles = frame.trianglesCulled(),
-            .specular = frame.specularMethod(),
-            .sampleCount = frame.samples(),
-            .culling = frame.cullingMode(),
-            .influence = frame.influenceRule(),
-            .exposure = frame.exposureSettings()};
-}
+constexpr Choice<ProfilePath> pathChoices[] = {{"still", ProfilePath::Still},
+                                               {"turn", ProfilePath::Turn}};
 
 // Returns the frame's options after those in `text` have replaced options of the command line.
 FrameOptions variant(const FrameArguments& base, const std::string& text)
@@ -79,7 +62,7 @@ FrameOptions variant(const FrameArguments& base, const std::string& text)
         frame.lightsVisible != base.lightsVisible)
         refuse("size, camera, G-buffer layout and visible lights must be the same for both");
     try {
-        return frameOptions(frame);
+        return frame.frameOptions();
     } catch (const UsageError& error) {
         refuse(error.what());
         throw;
@@ -136,13 +119,13 @@ ProfilePlan plan(const ProfileArguments& a)
     ProfilePlan p{
         .scene = a.scene.options(a.scene.lightCount()),
         .gbufferLayout = a.frame.gbufferLayout(),
-        .settings = {.path = cameraPath(a.path),
+        .settings = {.path = choose("--path", a.path, pathChoices),
                      .rounds = rounds,
                      .warmUpSeconds = numberOption("--warm-up", a.warmUp, 0, maxWarmUpSeconds),
                      .framesInFlight = inFlight}};
     if (a.ab.empty()) {
         p.names = {"frame"};
-        p.settings.variants = {frameOptions(a.frame)};
+        p.settings.variants = {a.frame.frameOptions()};
         return p;
     }
     if (p.settings.rounds < minPairs)
@@ -289,50 +272,32 @@ void addProfileCommand(CLI::App& app, Run& run)
     const auto a = std::make_shared<ProfileArguments>();
     a->scene.addTo(*command);
     a->scene.addLightsTo(*command);
-    command
-        ->add_option("--frames", a->frames,
-                     "number of frames to measure; warm-up frames come first, until the times are "
-                     "stable (at most 24, or as --warm-up says)")
-        ->type_name("N")
-        ->capture_default_str();
+    addOption(*command, "--frames", a->frames, "N",
+              "number of frames to measure; warm-up frames come first, until the times are stable "
+              "(at most 24, or as --warm-up says)");
     addWarmUpTo(*command, a->warmUp);
-    command
-        ->add_option("--frames-in-flight", a->framesInFlight,
-                     "number of frames that the CPU records before it waits for the oldest; with 1 "
-                     "the GPU is idle between frames, and some GPUs lower their clock")
-        ->type_name("N")
-        ->capture_default_str();
-    command
-        ->add_option("--path", a->path,
-                     "path of the camera over all frames: still, or turn, which turns once around "
-                     "the vertical")
-        ->type_name("NAME")
-        ->capture_default_str();
+    addOption(*command, "--frames-in-flight", a->framesInFlight, "N",
+              "number of frames that the CPU records before it waits for the oldest; with 1 the "
+              "GPU is idle between frames, and some GPUs lower their clock");
+    addOption(
+        *command, "--path", a->path, "NAME",
+        "path of the camera over all frames: still, or turn, which turns once around the vertical");
     command
         ->add_option("--ab", a->ab,
                      "compare two variants of the frame, each given as one string of options; "
                      "their frames alternate, and each pass gets a ratio with a 95% interval")
         ->type_name("OPTIONS OPTIONS")
         ->type_size(2); // so that texts may begin with dashes
-    command
-        ->add_option("--csv", a->csv,
-                     "CSV file with all times, one line per frame; - is standard output")
-        ->type_name("FILE");
-    command
-        ->add_option("--light-costs", a->lightCosts,
-                     "list the N lights that take the most shading time, with the pixels that they "
-                     "cover and the pairs of light and pixel that are evaluated for them")
-        ->type_name("N");
-    command
-        ->add_option("--trace", a->trace,
-                     "trace file of all measured frames, with CPU and GPU on one time axis, for "
-                     "ui.perfetto.dev or chrome://tracing; - is standard output")
-        ->type_name("FILE");
-    command
-        ->add_option("--json", a->json,
-                     "JSON file with a summary of all times and their provenance; - is standard "
-                     "output")
-        ->type_name("FILE");
+    addOption(*command, "--csv", a->csv, "FILE",
+              "CSV file with all times, one line per frame; - is standard output");
+    addOption(*command, "--light-costs", a->lightCosts, "N",
+              "list the N lights that take the most shading time, with the pixels that they cover "
+              "and the pairs of light and pixel that are evaluated for them");
+    addOption(*command, "--trace", a->trace, "FILE",
+              "trace file of all measured frames, with CPU and GPU on one time axis, for "
+              "ui.perfetto.dev or chrome://tracing; - is standard output");
+    addOption(*command, "--json", a->json, "FILE",
+              "JSON file with a summary of all times and their provenance; - is standard output");
     command->add_flag("--append", a->append,
                       "add this run to the runs in the --json file, for candelabra compare");
     a->frame.addTo(*command);

@@ -148,26 +148,18 @@ RenderPlan plan(const RenderArguments& a)
                          ".pfm), --json FILE, --pick X,Y or --explain");
     requireOutputs(a);
     const bool sequence = isSequence(a);
-    const CndInfluence influence = a.frame.influenceRule();
-    const bool byError = influence.rule == CND_INFLUENCE_BY_ERROR;
-    if (byError && a.frame.specularMethod() == CND_SPECULAR_SAMPLED)
+    FrameOptions frame = a.frame.frameOptions();
+    frame.time = numberOption("--time", a.time, -1e9, 1e9);
+    frame.bloom = bloomOf(a);
+    frame.edgeFilter = a.edgeFilter;
+    const bool byError = frame.influence.rule == CND_INFLUENCE_BY_ERROR;
+    if (byError && frame.specular == CND_SPECULAR_SAMPLED)
         throw UsageError("--influence-error: cannot be combined with --specular sampled, whose "
                          "noise hides the error");
     SceneOptions scene = a.scene.options(a.scene.lightCount());
     scene.imageAspect = a.frame.imageAspect();
     return {.scene = scene,
-            .frame = {.time = numberOption("--time", a.time, -1e9, 1e9),
-                      .levels = a.frame.levels(),
-                      .cullTriangles = a.frame.trianglesCulled(),
-                      .specular = a.frame.specularMethod(),
-                      .sampleCount = a.frame.samples(),
-                      .culling = a.frame.cullingMode(),
-                      .influence = influence,
-                      .reuse = a.frame.reuseMode(),
-                      .bloom = bloomOf(a),
-                      .heatMap = a.frame.heatMapMode(),
-                      .edgeFilter = a.edgeFilter,
-                      .exposure = a.frame.exposureSettings()},
+            .frame = frame,
             .gbufferLayout = a.frame.gbufferLayout(),
             // After three frames both slots have an exposure, and the frame before has cut lights.
             .counts = {.warmUp = byError ? 3u : 1u,
@@ -331,22 +323,15 @@ int render(const ProgramContext& program, const RenderArguments& a)
 // Adds the options of how pictures are made of frames.
 void addPictureOptions(CLI::App& command, RenderArguments& a)
 {
-    command
-        .add_option(
-            "--aa", a.samples,
-            "anti-aliasing: a frame is the mean of N samples, each shifted by part of a pixel and "
-            "lit again; linear files get the mean radiance, pictures the mean light of the "
-            "display; auto is 16 for pictures on a GPU, and 1 on a CPU, for several --frames that "
-            "are only timed, and with --edge-filter, --debug or --influence-error")
-        ->type_name("N|auto")
-        ->capture_default_str();
-    command
-        .add_option("--bloom", a.bloom,
-                    "share of the light, 0 to 1, that is spread over the picture as an eye "
-                    "scatters it, to make lamps look bright; 0.04 to 0.2 look natural; linear "
-                    "files and the metering of exposure leave it out")
-        ->type_name("SHARE")
-        ->capture_default_str();
+    addOption(command, "--aa", a.samples, "N|auto",
+              "anti-aliasing: a frame is the mean of N samples, each shifted by part of a pixel "
+              "and lit again; linear files get the mean radiance, pictures the mean light of the "
+              "display; auto is 16 for pictures on a GPU, and 1 on a CPU, for several --frames "
+              "that are only timed, and with --edge-filter, --debug or --influence-error");
+    addOption(command, "--bloom", a.bloom, "SHARE",
+              "share of the light, 0 to 1, that is spread over the picture as an eye scatters it, "
+              "to make lamps look bright; 0.04 to 0.2 look natural; linear files and the metering "
+              "of exposure leave it out");
     command.add_flag("--edge-filter", a.edgeFilter,
                      "smooth the edges of pictures with one sample per pixel, in a fraction of the "
                      "time of --aa; linear files keep their edges");
@@ -366,38 +351,24 @@ void addRenderCommand(CLI::App& app, Run& run)
                      "image file: .png for the display image, .exr, .hdr or .pfm for linear scene "
                      "radiance (cd/m^2) before exposure; may be given several times")
         ->type_name("FILE");
-    command
-        ->add_option("--frames", a->frames,
-                     "number of frames to render and time, after a warm-up frame like the first "
-                     "(1); -o writes all of them if its name has a place for their number, such as "
-                     "f.%04d.png, and otherwise only the last")
-        ->type_name("N");
+    addOption(*command, "--frames", a->frames, "N",
+              "number of frames to render and time, after a warm-up frame like the first (1); -o "
+              "writes all of them if its name has a place for their number, such as f.%04d.png, "
+              "and otherwise only the last");
     addPictureOptions(*command, *a);
-    command
-        ->add_option("--path", a->path,
-                     "path of the camera over all frames: still; turn, which turns once around the "
-                     "vertical; or a text file with one camera per line, written as for --camera, "
-                     "which the camera passes through")
-        ->type_name("NAME|FILE")
-        ->capture_default_str();
-    command
-        ->add_option("--fps", a->fps,
-                     "frames per second, for moving lights and for the adaptation of the eye")
-        ->type_name("N")
-        ->capture_default_str();
-    command->add_option("--time", a->time, "scene time of the first frame in seconds, for --moving")
-        ->type_name("SECONDS")
-        ->capture_default_str();
-    command
-        ->add_option("--json", a->json,
-                     "JSON file with times, statistics and their provenance; - is standard output")
-        ->type_name("FILE");
-    command
-        ->add_option(
-            "--pick", a->pick,
-            "list the lights of the pixel X,Y, counted from the left and the top, with the "
-            "contribution of each and its error against the reference in double precision")
-        ->type_name("X,Y");
+    addOption(*command, "--path", a->path, "NAME|FILE",
+              "path of the camera over all frames: still; turn, which turns once around the "
+              "vertical; or a text file with one camera per line, written as for --camera, which "
+              "the camera passes through");
+    addOption(*command, "--fps", a->fps, "N",
+              "frames per second, for moving lights and for the adaptation of the eye");
+    addOption(*command, "--time", a->time, "SECONDS",
+              "scene time of the first frame in seconds, for --moving");
+    addOption(*command, "--json", a->json, "FILE",
+              "JSON file with times, statistics and their provenance; - is standard output");
+    addOption(*command, "--pick", a->pick, "X,Y",
+              "list the lights of the pixel X,Y, counted from the left and the top, with the "
+              "contribution of each and its error against the reference in double precision");
     command->add_flag(
         "--explain", a->explain,
         "list the passes that the last frame ran, and explain why the others had nothing to do");
@@ -408,10 +379,6 @@ void addRenderCommand(CLI::App& app, Run& run)
     a->frame.addDebugTo(*command);
     a->frame.addReuseTo(*command, Reuse::None);
     a->device.addTo(*command);
-    command
-        ->add_flag_callback(
-            "--no-cache", [] {}, "has no effect: nothing is cached")
-        ->group(""); // not in --help
     command->footer("Examples:\n"
                     "  candelabra render hall --lights 16000 -o hall.png\n"
                     "  candelabra render field --moving --frames 60 -o last.png --json times.json\n"

@@ -435,12 +435,9 @@ std::vector<PartChoice> chosenParts(const std::string& parts)
 
 int report(const ProgramContext& program, const ReportArguments& a)
 {
-    const auto size = parseSize(a.size);
-    if (!size || size->width > maxSide || size->height > maxSide)
-        throw UsageError("--size \"" + a.size + "\": expected WIDTHxHEIGHT such as 640x360");
     const ReportPlan plan{.lights = unsignedOption("--lights", a.lights, 1, maxLights),
                           .frames = unsignedOption("--frames", a.frames, 1, 100'000),
-                          .size = *size};
+                          .size = sizeOption("--size", a.size)};
     const std::vector<PartChoice> wanted = chosenParts(a.parts);
     if (!a.committed.empty() && !std::filesystem::is_directory(a.committed))
         throw UsageError(fmt::format("--committed \"{}\": there is no such folder", a.committed));
@@ -470,18 +467,14 @@ void addReportCommand(CLI::App& app, Run& run)
         "report",
         "Run short forms of the main measurements, and write one HTML page of the results");
     const auto a = std::make_shared<ReportArguments>();
-    const auto add = [&](const char* name, std::string& value, const char* what, const char* type) {
-        command->add_option(name, value, what)->type_name(type)->capture_default_str();
-    };
-    add("--out", a->directory, "directory for index.html and report.json", "DIR");
-    add("--parts", a->parts, "parts to measure, in this order", "NAME,...");
-    add("--lights", a->lights, "number of lights in the profiled frame", "N");
-    add("--size", a->size, "image size of that frame", "WxH");
-    add("--frames", a->frames, "number of times to draw that frame", "N");
-    add("--committed", a->committed,
-        "folder with CSV files from tools/update_results, of the same device, to compare with; "
-        "default: tools/bench/results, if it exists",
-        "DIR");
+    addOption(*command, "--out", a->directory, "DIR", "directory for index.html and report.json");
+    addOption(*command, "--parts", a->parts, "NAME,...", "parts to measure, in this order");
+    addOption(*command, "--lights", a->lights, "N", "number of lights in the profiled frame");
+    addOption(*command, "--size", a->size, "WxH", "image size of that frame");
+    addOption(*command, "--frames", a->frames, "N", "number of times to draw that frame");
+    addOption(*command, "--committed", a->committed, "DIR",
+              "folder with CSV files from tools/update_results, of the same device, to compare "
+              "with; default: tools/bench/results, if it exists");
     a->device.addTo(*command);
     command->footer(
         "The page begins with five sentences that give the result. Under every part is the\n"

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // candelabra stress: a sweep over light counts, timed and checked.
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include "commands/commands.h"
+#include "commands/bench_commands.h"
 #include "commands/messages.h"
 #include "io/error.h"
 #include "measure/stress.h"
@@ -27,41 +26,24 @@ struct StressArguments {
     std::string directory = "out", json;
 };
 
-CheckExtent checkExtent(const std::string& text)
-{
-    if (text == "auto")
-        return CheckExtent::Auto;
-    if (text == "sampled")
-        return CheckExtent::Sampled;
-    if (text == "full")
-        return CheckExtent::Full;
-    if (text == "none")
-        return CheckExtent::None;
-    throw UsageError("--check \"" + text + "\": choose one of auto, sampled, full, none");
-}
+constexpr Choice<CheckExtent> checkChoices[] = {{"auto", CheckExtent::Auto},
+                                                {"sampled", CheckExtent::Sampled},
+                                                {"full", CheckExtent::Full},
+                                                {"none", CheckExtent::None}};
 
 StressSettings settingsOf(const StressArguments& a)
 {
-    const auto size = parseSize(a.frame.size);
-    if (!size || size->width > maxSide || size->height > maxSide)
-        throw UsageError(fmt::format("--size \"{}\": expected WIDTHxHEIGHT up to {} pixels a side",
-                                     a.frame.size, maxSide));
     return {.scene = a.scene.scene,
             .sceneOptions = a.scene.options(std::nullopt),
             .camera = a.frame.camera,
-            .size = *size,
+            .size = sizeOption("--size", a.frame.size),
             .gbufferLayout = a.frame.gbufferLayout(),
-            .frame = {.levels = a.frame.levels(),
-                      .cullTriangles = a.frame.trianglesCulled(),
-                      .specular = a.frame.specularMethod(),
-                      .sampleCount = a.frame.samples(),
-                      .reuse = a.frame.reuseMode(),
-                      .exposure = a.frame.exposureSettings()},
+            .frame = a.frame.frameOptions(),
             .lightsVisible = a.frame.lightsVisibleOverride(),
             .counts = {.warmUp = 2,
                        .measured = unsignedOption("--frames", a.frames, 1, 1'000'000),
                        .warmUpSeconds = numberOption("--warm-up", a.warmUp, 0, maxWarmUpSeconds)},
-            .check = checkExtent(a.check),
+            .check = choose("--check", a.check, checkChoices),
             .directory = a.directory};
 }
 
@@ -75,26 +57,6 @@ std::vector<uint32_t> lightCounts(const StressArguments& a)
     }
     a.device.requireRoomFor(*std::max_element(counts.begin(), counts.end()));
     return counts;
-}
-
-void makeDirectory(const std::string& path)
-{
-    std::error_code error;
-    std::filesystem::create_directories(path, error);
-    if (!std::filesystem::is_directory(path))
-        throw UsageError("--out " + path + ": cannot make this directory: " +
-                         (error ? error.message() : "a file has its name"));
-    requireWritable("--out", path + "/stress.json");
-}
-
-// Returns the path of the JSON results: --json, or stress.json in the directory of --out. A path
-// that cannot be written is refused here, before anything is measured.
-std::string jsonPath(const StressArguments& a)
-{
-    const std::string path =
-        a.json.empty() ? (std::filesystem::path(a.directory) / "stress.json").string() : a.json;
-    requireWritable("--json", path);
-    return path;
 }
 
 std::string advice(const StressArguments& a, const std::vector<StressPoint>& points,
@@ -117,8 +79,8 @@ int stress(const ProgramContext& program, const StressArguments& a)
     StressSettings settings = settingsOf(a);
     const std::vector<uint32_t> counts = lightCounts(a);
     a.scene.warnOfIdleOptions(counts.front());
-    makeDirectory(a.directory);
-    const std::string json = jsonPath(a);
+    const std::string json = benchOutput(a.directory, "--json", a.json, "stress.json");
+    const std::string svg = benchOutput(a.directory, "--out", "", "stress.svg");
     const VulkanContext context(a.device.contextOptions());
     spdlog::info("{} at {}x{} on {}", settings.scene, settings.size.width, settings.size.height,
                  context.info().name);
@@ -132,7 +94,6 @@ int stress(const ProgramContext& program, const StressArguments& a)
         for (const uint32_t count : counts)
             points.push_back(measureStressPoint(context, settings, count, progress));
     }
-    const std::string svg = (std::filesystem::path(a.directory) / "stress.svg").string();
     writeText(svg, stressPlot(settings, context.info(), points));
     Json document{{"schema", "candelabra stress 1"},
                   {"provenance", provenance(context.info(), program.commandLine)}};
@@ -156,30 +117,15 @@ void addStressCommand(CLI::App& app, Run& run)
                                      "pictures, a plot and all figures");
     const auto a = std::make_shared<StressArguments>();
     a->scene.addTo(*command, "hall");
-    command->add_option("--lights", a->lights, "light counts to measure")
-        ->type_name("N,N,...")
-        ->capture_default_str();
-    command
-        ->add_option("--frames", a->frames, "frames to measure per count, after 2 warm-up frames")
-        ->type_name("N")
-        ->capture_default_str();
+    addOption(*command, "--lights", a->lights, "N,N,...", "light counts to measure");
+    addOption(*command, "--frames", a->frames, "N",
+              "frames to measure per count, after 2 warm-up frames");
     addWarmUpTo(*command, a->warmUp);
-    command
-        ->add_option("--check", a->check,
-                     "pixels to compare with brute force: auto (all pixels up to 16384 lights, and "
-                     "sampled tiles above), sampled (fewer tiles, for a quick look), full, or "
-                     "none, which also skips the second run")
-        ->type_name("NAME")
-        ->capture_default_str();
-    command
-        ->add_option("--out", a->directory,
-                     "directory for all output; it is created if it does not exist")
-        ->type_name("DIR")
-        ->capture_default_str();
-    command
-        ->add_option("--json", a->json,
-                     "JSON file with all figures (DIR/stress.json); - is standard output")
-        ->type_name("FILE");
+    addOption(*command, "--check", a->check, "NAME",
+              "pixels to compare with brute force: auto (all pixels up to 16384 lights, and "
+              "sampled tiles above), sampled (fewer tiles, for a quick look), full, or none, which "
+              "also skips the second run");
+    addBenchOutput(*command, a->directory, a->json, "stress.json");
     a->frame.size = "1280x720";
     a->frame.addTo(*command);
     command->get_option("--size")->description("image size in pixels")->capture_default_str();

@@ -188,35 +188,25 @@ void addTruthCommand(CLI::App& app, Run& run)
     CLI::App* command = app.add_subcommand(
         "truth", "Integrate a scene of planes and balls in double precision on the CPU");
     const auto a = std::make_shared<TruthArguments>();
-    command->add_option("scene", a->scene, "a scene .json file")->type_name("SCENE");
-    command
-        ->add_option("-o,--output", a->output,
-                     "image file for linear scene radiance (cd/m^2): .exr, .hdr or .pfm; with "
-                     "--shard, a file with any name for --merge")
-        ->type_name("FILE");
-    command
-        ->add_option("--tolerance", a->tolerance,
-                     "relative tolerance of every light's contribution, 1e-9 to 1e-2")
-        ->type_name("T")
-        ->capture_default_str();
+    addOption(*command, "scene", a->scene, "SCENE", "a scene .json file");
+    addOption(*command, "-o,--output", a->output, "FILE",
+              "image file for linear scene radiance (cd/m^2): .exr, .hdr or .pfm; with --shard, a "
+              "file with any name for --merge");
+    addOption(*command, "--tolerance", a->tolerance, "T",
+              "relative tolerance of every light's contribution, 1e-9 to 1e-2");
     a->frame.addViewTo(*command);
     a->lobes.addTo(*command);
-    command->add_option("--threads", a->threads, "number of threads; default: one per core")
-        ->type_name("N");
-    command
-        ->add_option("--shard", a->shard,
-                     "compute only every n-th row, starting with row i, so that n machines can "
-                     "share the work")
-        ->type_name("i/n");
+    addOption(*command, "--threads", a->threads, "N", "number of threads; default: one per core");
+    addOption(
+        *command, "--shard", a->shard, "i/n",
+        "compute only every n-th row, starting with row i, so that n machines can share the work");
     command
         ->add_option("--merge", a->merge,
                      "merge the files of all shards, given in any order, into one image")
         ->type_name("FILE...");
-    command
-        ->add_option("--cache", a->cache,
-                     "directory that keeps computed images (default: candelabra/truth in "
-                     "$XDG_CACHE_HOME or ~/.cache)")
-        ->type_name("DIR");
+    addOption(*command, "--cache", a->cache, "DIR",
+              "directory that keeps computed images (default: candelabra/truth in $XDG_CACHE_HOME "
+              "or ~/.cache)");
     command->add_flag("--no-cache", a->noCache,
                       "compute the image even if it is in the cache, and do not store it there");
     command->footer(

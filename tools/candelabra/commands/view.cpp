@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include "commands/choice_option.h"
 #include "commands/commands.h"
 #include "commands/messages.h"
 #include "io/error.h"
@@ -30,21 +29,13 @@ struct ViewArguments {
 ViewerOptions optionsOf(const ViewArguments& a)
 {
     ViewerOptions out{.gbufferLayout = a.frame.gbufferLayout(),
-                      .frame = {.levels = a.frame.levels(),
-                                .cullTriangles = a.frame.trianglesCulled(),
-                                .specular = a.frame.specularMethod(),
-                                .sampleCount = a.frame.samples(),
-                                .culling = a.frame.cullingMode(),
-                                .influence = a.frame.influenceRule(),
-                                .reuse = a.frame.reuseMode(),
-                                .heatMap = a.frame.heatMapMode(),
-                                .edgeFilter = true,
-                                .exposure = a.frame.exposureSettings()},
+                      .frame = a.frame.frameOptions(),
                       .lightsVisible = a.frame.lightsVisibleOverride(),
                       .overlay = !a.noOverlay,
                       .frames = unsignedOption("--frames", a.frames, 0, 1'000'000),
                       .whileMoving = choose("--while-moving", a.whileMoving, whileMovingChoices),
                       .screenshot = a.screenshot};
+    out.frame.edgeFilter = true;
     // Sizes that follow from times would not be the same in every run.
     if (out.frames && out.whileMoving == WhileMoving::Auto)
         out.whileMoving = WhileMoving::Full;
@@ -106,18 +97,13 @@ void addViewCommand(CLI::App& app, Run& run)
     a->scene.addTo(*command, "hall");
     a->scene.addLightsTo(*command);
     a->scene.addDefaultLightTo(*command);
-    command
-        ->add_option("--frames", a->frames,
-                     "stop after N frames, which are 1/60 s apart; 0 means never")
-        ->type_name("N")
-        ->capture_default_str();
+    addOption(*command, "--frames", a->frames, "N",
+              "stop after N frames, which are 1/60 s apart; 0 means never");
     addChoice(*command, "--while-moving", a->whileMoving, whileMovingChoices,
               "size of the picture while you move the camera or drag a light; auto halves width "
               "and height if frames take longer than 1/15 s, except with --frames");
-    command
-        ->add_option("--screenshot", a->screenshot,
-                     "PNG file for a picture of the window at the last frame of --frames")
-        ->type_name("FILE");
+    addOption(*command, "--screenshot", a->screenshot, "FILE",
+              "PNG file for a picture of the window at the last frame of --frames");
     command->add_flag("--no-overlay", a->noOverlay, "start without the panel (F1 shows it)");
     command->add_flag("--verbose", a->verbose,
                       "report on stderr what each key and click does, where the camera stops, and "
