@@ -2,7 +2,6 @@
 // Tests the built program as a user runs it: files, exit codes, the window under Xvfb.
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -14,12 +13,12 @@
 #include <nlohmann/json.hpp>
 #include <stb_image.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include "commands/options.h"
 #include "harness/gpu_fixture.h"
 #include "harness/json_keys.h"
 #include "harness/paths.h"
+#include "harness/temporary_folder.h"
 #include "harness/xml.h"
 #include "io/image.h"
 #include "io/table.h"
@@ -30,31 +29,13 @@ using namespace candelabra;
 namespace
 {
 
-class ProgramTest : public test::GpuTest
+class ProgramTest : public test::GpuTest, protected test::TemporaryFolder
 {
 protected:
     struct Outcome {
         int exitCode;
         std::string out, err;
     };
-    void SetUp() override
-    {
-        GpuTest::SetUp();
-        std::filesystem::create_directories(dir_);
-    }
-    void TearDown() override
-    {
-        GpuTest::TearDown();
-        std::filesystem::remove_all(dir_);
-    }
-    std::string path(const std::string& name) const { return (dir_ / name).string(); }
-    std::string text(const std::string& name) const
-    {
-        std::ifstream file(dir_ / name);
-        std::stringstream content;
-        content << file.rdbuf();
-        return content.str();
-    }
     // Runs a command line through a shell; `before` is put in front of the program. Where tests run
     // without validation, "--validate" at the end is left out.
     Outcome run(std::string arguments, const std::string& before = "") const
@@ -64,16 +45,14 @@ protected:
         if (!test::validates() && arguments.ends_with(validate))
             arguments.erase(arguments.size() - validate.size());
         const std::string command =
-            "cd '" + dir_.string() + "' && XDG_CACHE_HOME='" + dir_.string() + "/cache' " + before +
-            " " + test::programWord() + " " + arguments +
+            "cd '" + path() + "' && XDG_CACHE_HOME='" + path() + "/cache' " + before + " " +
+            test::programWord() + " " + arguments +
             (device && arguments.rfind("devices", 0) ? " --device '" + std::string(device) + "'"
                                                      : "") +
             " >out.txt 2>err.txt";
         const int status = std::system(command.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text("out.txt"), text("err.txt")};
     }
-    const std::filesystem::path dir_ =
-        std::filesystem::temp_directory_path() / ("candelabra_program_" + std::to_string(getpid()));
 };
 
 struct Png {
@@ -509,7 +488,7 @@ TEST_F(ProgramTest, ProfiledRunsCollectAndCompare)
                   0);
     ASSERT_EQ(nlohmann::json::parse(text("r.json")).size(), 2u);
     // Not run(), because compare does not take a device.
-    const std::string compare = "cd '" + dir_.string() + "' && " + test::programWord() +
+    const std::string compare = "cd '" + path() + "' && " + test::programWord() +
                                 " compare r.json r.json >out.txt 2>err.txt";
     ASSERT_EQ(WEXITSTATUS(std::system(compare.c_str())), 0) << text("err.txt");
     EXPECT_NE(text("out.txt").find("shade_tiles"), std::string::npos) << text("out.txt");
@@ -562,7 +541,7 @@ TEST_F(ProgramTest, SignalsLeaveNoPartsOfFiles)
                                     "-o s.pfm --json s.json",
                                     before);
         ended += outcome.exitCode == 124;
-        for (const auto& file : std::filesystem::directory_iterator(dir_)) {
+        for (const auto& file : std::filesystem::directory_iterator(path())) {
             const std::string name = file.path().filename().string();
             EXPECT_TRUE(name == "out.txt" || name == "err.txt" || name == "cache" ||
                         name == "s.exr" || name == "s.pfm" || name == "s.json")
@@ -610,7 +589,7 @@ TEST_F(ProgramTest, MoreLightsThanTheDeviceHasRoomForAreRefused)
 TEST_F(ProgramTest, UnknownDeviceIsRefused)
 {
     for (const char* wanted : {"99", "no-such-device"}) {
-        const std::string command = "cd '" + dir_.string() + "' && " + test::programWord() +
+        const std::string command = "cd '" + path() + "' && " + test::programWord() +
                                     " render hall -o a.png --device " + wanted + " 2>err.txt";
         const int status = std::system(command.c_str());
         EXPECT_EQ(WEXITSTATUS(status), 2) << wanted;

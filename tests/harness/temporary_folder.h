@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -15,7 +16,7 @@
 namespace candelabra::test
 {
 
-// A folder that exists as long as this object.
+// A folder that exists as long as this object. Test fixtures may derive from it.
 class TemporaryFolder
 {
 public:
@@ -34,7 +35,15 @@ public:
     TemporaryFolder(const TemporaryFolder&) = delete;
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
-    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+    // The path of a file, or of the folder.
+    std::string path(const std::string& name = "") const { return (folder_ / name).string(); }
+    // What a file holds; empty if there is none.
+    std::string text(const std::string& name) const
+    {
+        std::stringstream content;
+        content << std::ifstream(folder_ / name, std::ios::binary).rdbuf();
+        return content.str();
+    }
 
     // Both write a file, make the folders that it needs, and return its path.
     std::string write(const std::string& name, const std::string& text) const

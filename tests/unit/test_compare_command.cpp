@@ -2,16 +2,14 @@
 // Tests candelabra compare on files as candelabra profile writes them. Nothing here uses Vulkan.
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <random>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "harness/json_keys.h"
 #include "harness/run_program.h"
+#include "harness/temporary_folder.h"
 #include "io/error.h"
 
 using namespace candelabra::app;
@@ -22,15 +20,12 @@ using nlohmann::json;
 namespace
 {
 
-class CompareCommand : public testing::Test
+class CompareCommand : public testing::Test, protected candelabra::test::TemporaryFolder
 {
 protected:
-    void SetUp() override { std::filesystem::create_directories(dir_); }
-    void TearDown() override { std::filesystem::remove_all(dir_); }
     std::string write(const std::string& name, const json& content) const
     {
-        std::ofstream(dir_ / name) << content;
-        return (dir_ / name).string();
+        return TemporaryFolder::write(name, content.dump());
     }
     json run(double shadingMs)
     {
@@ -71,8 +66,6 @@ protected:
 
     std::mt19937 random_{3};
     std::lognormal_distribution<double> noise_{0, 0.005}, loud_{0, 0.5};
-    const std::filesystem::path dir_ =
-        std::filesystem::temp_directory_path() / ("candelabra_compare_" + std::to_string(getpid()));
 };
 
 } // namespace

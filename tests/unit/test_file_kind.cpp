@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests what is said of files that are no scenes, and that the example files are scenes.
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "generate/examples.h"
+#include "harness/temporary_folder.h"
 #include "io/image_file.h"
 #include "load/load.h"
 #include "scene/file_kind.h"
@@ -18,16 +17,9 @@ using namespace candelabra::app;
 namespace
 {
 
-class FileKind : public testing::Test
+class FileKind : public testing::Test, protected candelabra::test::TemporaryFolder
 {
 protected:
-    void SetUp() override { std::filesystem::create_directories(dir_); }
-    void TearDown() override { std::filesystem::remove_all(dir_); }
-    std::string path(const std::string& name) const { return (dir_ / name).string(); }
-    void write(const std::string& name, const std::string& bytes) const
-    {
-        std::ofstream(dir_ / name, std::ios::binary) << bytes;
-    }
     // Returns why loadScene refuses a file.
     std::string refusal(const std::string& name) const
     {
@@ -38,8 +30,6 @@ protected:
         }
         return "";
     }
-    const std::filesystem::path dir_ = std::filesystem::temp_directory_path() /
-                                       ("candelabra_file_kind_" + std::to_string(getpid()));
 };
 
 } // namespace
@@ -127,7 +117,7 @@ TEST_F(FileKind, ExampleFilesAreScenes)
 TEST_F(FileKind, RefusalsToWriteAreFoundWithoutWriting)
 {
     EXPECT_EQ(writeRefusal(path("new.png")), "");
-    EXPECT_TRUE(std::filesystem::is_empty(dir_));
+    EXPECT_TRUE(std::filesystem::is_empty(path()));
     EXPECT_NE(writeRefusal("/proc/new.png"), "");
     EXPECT_NE(writeRefusal(path("no/such/new.png")), "");
 }

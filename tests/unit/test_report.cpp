@@ -2,11 +2,10 @@
 // Tests tables, plots, parsing and output files of the program.
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include <gtest/gtest.h>
 
+#include "harness/temporary_folder.h"
 #include "harness/xml.h"
 #include "io/error.h"
 #include "io/parse.h"
@@ -126,29 +125,20 @@ TEST(SvgPlot, SurvivesHardInput)
     EXPECT_NE(logLogPlot({}, {}).find("no measurement"), std::string::npos);
 }
 
-class FileTest : public ::testing::Test
+class FileTest : public ::testing::Test, protected test::TemporaryFolder
 {
-protected:
-    void SetUp() override { std::filesystem::create_directories(dir_); }
-    void TearDown() override { std::filesystem::remove_all(dir_); }
-    const std::filesystem::path dir_ = std::filesystem::temp_directory_path() /
-                                       ("candelabra_report_" + std::to_string(::getpid()));
 };
 
 TEST_F(FileTest, TextAppearsWholeAndLeavesNothingElse)
 {
-    const std::string path = dir_ / "a.txt";
-    writeText(path, "one");
-    writeText(path, "two\n");
-    std::ifstream file(path);
-    std::stringstream content;
-    content << file.rdbuf();
-    EXPECT_EQ(content.str(), "two\n");
+    writeText(path("a.txt"), "one");
+    writeText(path("a.txt"), "two\n");
+    EXPECT_EQ(text("a.txt"), "two\n");
     size_t files = 0;
-    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(dir_))
+    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(path()))
         ++files;
     EXPECT_EQ(files, 1u);
-    EXPECT_THROW(writeText(dir_ / "missing" / "a.txt", "x"), RunError);
+    EXPECT_THROW(writeText(path("missing/a.txt"), "x"), RunError);
 }
 
 TEST_F(FileTest, PlotsAreWellFormed)
@@ -158,19 +148,19 @@ TEST_F(FileTest, PlotsAreWellFormed)
         {hard, {{1, 5}, {2, 7}}}, {"none", {{0, 1}, {1, NAN}}}, {"alone", {{3, 3}}, true, false}};
     for (const std::string& svg :
          {logLogPlot({hard, hard, hard, hard}, series), logLogPlot({}, {})}) {
-        writeText(dir_ / "plot.svg", svg);
-        EXPECT_EQ(test::xmlFault(dir_ / "plot.svg"), "");
+        writeText(path("plot.svg"), svg);
+        EXPECT_EQ(test::xmlFault(path("plot.svg")), "");
     }
-    writeText(dir_ / "plot.svg", "<svg><a></svg>");
-    EXPECT_NE(test::xmlFault(dir_ / "plot.svg"), ""); // the check is able to fail
+    writeText(path("plot.svg"), "<svg><a></svg>");
+    EXPECT_NE(test::xmlFault(path("plot.svg")), ""); // the check is able to fail
 }
 
 TEST_F(FileTest, UnwritablePlacesAreFoundBeforeTheWork)
 {
-    EXPECT_NO_THROW(requireWritable("-o", dir_ / "a.png"));
+    EXPECT_NO_THROW(requireWritable("-o", path("a.png")));
     EXPECT_NO_THROW(requireWritable("--json", "-"));
-    EXPECT_THROW(requireWritable("-o", dir_), UsageError);
-    EXPECT_THROW(requireWritable("-o", dir_ / "missing" / "a.png"), UsageError);
+    EXPECT_THROW(requireWritable("-o", path()), UsageError);
+    EXPECT_THROW(requireWritable("-o", path("missing/a.png")), UsageError);
     EXPECT_THROW(requireWritable("-o", ""), UsageError);
     EXPECT_THROW(requireWritable("--json", "/dev/null"), UsageError); // would be replaced by a file
 }

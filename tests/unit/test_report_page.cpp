@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the page of `candelabra report`: tables, sentences, terms and comparisons, on made-up
 // results.
-#include <filesystem>
-#include <fstream>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "harness/paths.h"
+#include "harness/temporary_folder.h"
 #include "harness/xml.h"
 #include "io/html_page.h"
 #include "measure/report/committed.h"
@@ -113,17 +111,8 @@ std::string page(double froxels)
     return htmlOf(out);
 }
 
-class ReportPageTest : public ::testing::Test
+class ReportPageTest : public ::testing::Test, protected test::TemporaryFolder
 {
-protected:
-    void SetUp() override { std::filesystem::create_directories(dir_); }
-    void TearDown() override { std::filesystem::remove_all(dir_); }
-    void write(const std::string& name, const std::string& text) const
-    {
-        std::ofstream(dir_ / name) << text;
-    }
-    const std::filesystem::path dir_ = std::filesystem::temp_directory_path() /
-                                       ("candelabra_report_page_" + std::to_string(::getpid()));
 };
 
 } // namespace
@@ -309,7 +298,7 @@ TEST_F(ReportPageTest, IsWellFormedAndTheSameForTheSameResults)
 {
     const std::string text = page(1.5);
     write("page.html", text);
-    EXPECT_EQ(test::xmlFault(dir_ / "page.html"), "");
+    EXPECT_EQ(test::xmlFault(path("page.html")), "");
     EXPECT_EQ(text, page(1.5));
     EXPECT_NE(text, page(0.5));
 }

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests what sequences of pictures are made of: places of samples in a pixel, numbered names, and
 // paths of the camera.
-#include <filesystem>
-#include <fstream>
 #include <numbers>
 #include <set>
 #include <string>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
+#include "harness/temporary_folder.h"
 #include "io/error.h"
 #include "io/numbered_name.h"
 #include "render/accumulation.h"
@@ -22,19 +20,9 @@ using namespace candelabra::app;
 namespace
 {
 
-class SequenceTest : public testing::Test
+class SequenceTest : public testing::Test, protected candelabra::test::TemporaryFolder
 {
 protected:
-    void SetUp() override { std::filesystem::create_directories(dir_); }
-    void TearDown() override { std::filesystem::remove_all(dir_); }
-    std::string path(const std::string& name) const { return (dir_ / name).string(); }
-    std::string write(const std::string& name, const std::string& text) const
-    {
-        std::ofstream(dir_ / name, std::ios::binary) << text;
-        return path(name);
-    }
-    const std::filesystem::path dir_ = std::filesystem::temp_directory_path() /
-                                       ("candelabra_sequence_" + std::to_string(getpid()));
 };
 
 Scene sceneWithCamera()

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "cli.h"
 #include "data/path_traced.h"
+#include "harness/temporary_folder.h"
 #include "io/image.h"
 #include "truth/reference_scene.h"
 #include "truth/truth_cache.h"
@@ -34,21 +34,11 @@ constexpr const char* dielectric = R"({"camera": {"position": [0, 0.5, 3],
     "lights": [{"position": [0.5, 1.2, -3], "radius": 0.4, "radiance": [10, 10, 10]}],
     "resolution": [256, 256]})";
 
-class TruthCommand : public testing::Test
+class TruthCommand : public testing::Test, protected test::TemporaryFolder
 {
 protected:
-    void SetUp() override
-    {
-        std::filesystem::create_directories(dir_);
-        write("scene.json", dielectric);
-    }
-    void TearDown() override { std::filesystem::remove_all(dir_); }
+    void SetUp() override { write("scene.json", dielectric); }
 
-    std::string path(const std::string& name) const { return (dir_ / name).string(); }
-    void write(const std::string& name, const std::string& text) const
-    {
-        std::ofstream(path(name)) << text;
-    }
     // Returns the exit code; err_ receives what went to stderr.
     int run(std::vector<std::string> arguments)
     {
@@ -67,8 +57,6 @@ protected:
         return run(more);
     }
 
-    const std::filesystem::path dir_ =
-        std::filesystem::temp_directory_path() / ("candelabra_truth_" + std::to_string(getpid()));
     std::string err_;
 };
 
