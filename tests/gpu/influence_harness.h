@@ -84,35 +84,17 @@ inline std::string skipped(const CndLightingStats& stats, const char* pass)
 class InfluenceTest : public LightingTest
 {
 protected:
-    void TearDown() override
-    {
-        cndDestroyLightingView(view_);
-        cndDestroyLighting(lighting_);
-        LightingTest::TearDown();
-    }
     void create(const CpuGBuffer& g, const std::vector<CndLight>& lights)
     {
-        CndError error{};
-        const CndLightingDesc desc{.structSize = sizeof desc,
-                                   .framesInFlight = 1,
-                                   .specularMethods = 1u << RunOptions{}.specular,
-                                   .shading = CND_SHADING_CLUSTERED_BIT | CND_SHADING_BRUTE_BIT,
-                                   .influenceByError = VK_TRUE};
-        ASSERT_EQ(cndCreateLighting(&deviceDesc(), &desc, &lighting_, &error), CND_SUCCESS)
-            << error.message;
-        const CndLightingViewDesc viewDesc{sizeof viewDesc, g.width, g.height, 0};
-        ASSERT_EQ(cndCreateLightingView(lighting_, &viewDesc, &view_, &error), CND_SUCCESS)
-            << error.message;
+        own_ = createLighting(
+            g, CndLightingDesc{.framesInFlight = 1,
+                               .specularMethods = 1u << RunOptions{}.specular,
+                               .shading = CND_SHADING_CLUSTERED_BIT | CND_SHADING_BRUTE_BIT,
+                               .influenceByError = VK_TRUE});
         set(lights);
         show(g);
     }
-    void set(const std::vector<CndLight>& lights)
-    {
-        CndError error{};
-        const CndLightSet s{
-            .structSize = sizeof s, .count = uint32_t(lights.size()), .lights = lights.data()};
-        ASSERT_EQ(cndSetLights(lighting_, &s, &error), CND_SUCCESS) << error.message;
-    }
+    void set(const std::vector<CndLight>& lights) { setLights(own_.lighting, lights); }
     void show(const CpuGBuffer& g)
     {
         images_ = uploadImages(g);
@@ -129,11 +111,10 @@ protected:
             vkCmdClearColorImage(cmd, images_.radiance.image.get(), VK_IMAGE_LAYOUT_GENERAL, &value,
                                  1, &all);
             fullBarrier(cmd);
-            EXPECT_EQ(cndRecordLighting(view_, cmd, &frame_, &error), CND_SUCCESS) << error.message;
+            EXPECT_EQ(cndRecordLighting(own_.view, cmd, &frame_, &error), CND_SUCCESS)
+                << error.message;
         });
-        CndLightingStats stats{.structSize = sizeof stats};
-        EXPECT_EQ(cndGetLightingStats(view_, 0, &stats), CND_SUCCESS);
-        return stats;
+        return statsOf(own_.view);
     }
     std::vector<glm::vec4> uncut()
     {
@@ -141,8 +122,7 @@ protected:
         return readRadiance(images_);
     }
 
-    CndLighting lighting_{};
-    CndLightingView view_{};
+    LightingAndView own_;
     Images images_;
     CndLightingFrame frame_{};
     float base_ = 0; // luminance that each pixel has already

@@ -345,8 +345,8 @@ std::vector<glm::vec4> LightingTest::readRadiance(const Images& images) const
     return radiance;
 }
 
-std::pair<CndLighting, CndLightingView> LightingTest::createLighting(const CpuGBuffer& g,
-                                                                     CndLightingDesc desc)
+LightingTest::LightingAndView LightingTest::createLighting(const CpuGBuffer& g,
+                                                           CndLightingDesc desc)
 {
     CndError error{};
     desc.structSize = sizeof desc;
@@ -357,11 +357,11 @@ std::pair<CndLighting, CndLightingView> LightingTest::createLighting(const CpuGB
     CndLightingView view{};
     EXPECT_EQ(cndCreateLightingView(lighting, &viewDesc, &view, &error), CND_SUCCESS)
         << error.message;
-    return {lighting, view};
+    return created_.emplace_back(LightingAndView{lighting, view});
 }
 
-std::pair<CndLighting, CndLightingView> LightingTest::createLighting(const CpuGBuffer& g,
-                                                                     uint32_t framesInFlight)
+LightingTest::LightingAndView LightingTest::createLighting(const CpuGBuffer& g,
+                                                           uint32_t framesInFlight)
 {
     return createLighting(g, CndLightingDesc{.framesInFlight = framesInFlight,
                                              .specularMethods = 1u << RunOptions{}.specular,
@@ -376,6 +376,43 @@ void LightingTest::setLights(CndLighting lighting, const std::vector<CndLight>& 
     const CndLightSet set{
         .structSize = sizeof set, .count = uint32_t(lights.size()), .lights = lights.data()};
     EXPECT_EQ(cndSetLights(lighting, &set, &error), CND_SUCCESS) << error.message;
+}
+
+CndLightingStats LightingTest::statsOf(CndLightingView view, uint32_t frameSlot)
+{
+    CndLightingStats stats{.structSize = sizeof stats};
+    EXPECT_EQ(cndGetLightingStats(view, frameSlot, &stats), CND_SUCCESS);
+    return stats;
+}
+
+std::vector<glm::vec4> LightingTest::drawFrame(CndLightingView view, const CndLightingFrame& frame,
+                                               const Images& images)
+{
+    context().submitAndWait([&](VkCommandBuffer cmd) {
+        CndError error{};
+        clearRadiance(cmd, images);
+        EXPECT_EQ(cndRecordLighting(view, cmd, &frame, &error), CND_SUCCESS) << error.message;
+    });
+    return readRadiance(images);
+}
+
+void LightingTest::expectRefused(CndLightingView view, const CndLightingFrame& frame,
+                                 const char* word)
+{
+    context().submitAndWait([&](VkCommandBuffer cmd) {
+        CndError error{};
+        EXPECT_EQ(cndRecordLighting(view, cmd, &frame, &error), CND_ERROR_INVALID_ARGUMENT);
+        EXPECT_NE(std::string(error.message).find(word), std::string::npos) << error.message;
+    });
+}
+
+void LightingTest::TearDown()
+{
+    for (const LightingAndView& created : created_) {
+        cndDestroyLightingView(created.view);
+        cndDestroyLighting(created.lighting);
+    }
+    GpuTest::TearDown();
 }
 
 // The number of frame slots that run() draws with in turn.
@@ -458,18 +495,13 @@ LightingResult LightingTest::run(const CpuGBuffer& g, const std::vector<CndLight
                                       .shading = shadingOf(frame)};
     EXPECT_EQ(cndAddLightingPipelines(lighting, &needed, &error), CND_SUCCESS) << error.message;
     LightingResult result;
-    result.stats.structSize = sizeof result.stats;
     for (int i = 0; i < options.frames; ++i) {
         frame.frameSlot = uint32_t(i) % runFramesInFlight;
         frame.surfacesUnchanged = options.unchanged && i > 0;
         options.beforeFrame();
-        context().submitAndWait([&](VkCommandBuffer cmd) {
-            clearRadiance(cmd, images);
-            EXPECT_EQ(cndRecordLighting(view, cmd, &frame, &error), CND_SUCCESS) << error.message;
-        });
+        result.radiance = drawFrame(view, frame, images);
     }
-    EXPECT_EQ(cndGetLightingStats(view, frame.frameSlot, &result.stats), CND_SUCCESS);
-    result.radiance = readRadiance(images);
+    result.stats = statsOf(view, frame.frameSlot);
     cndDestroyLightingView(view);
     if (!options.lighting && !shares(options))
         cndDestroyLighting(lighting);

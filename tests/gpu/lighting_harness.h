@@ -5,8 +5,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <random>
-#include <utility>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -109,18 +107,23 @@ struct RunOptions {
 class LightingTest : public GpuTest
 {
 protected:
+    void TearDown() override;
+
     // Draws with a view of its own.
     LightingResult run(const CpuGBuffer& g, const std::vector<CndLight>& lights,
                        const RunOptions& options = {});
     // Creates a lighting for RunOptions::lighting, which the caller must destroy.
     CndLighting createFor(const RunOptions& options);
-    // Creates a lighting and a view for `g`, which the caller must destroy.
-    std::pair<CndLighting, CndLightingView> createLighting(const CpuGBuffer& g,
-                                                           CndLightingDesc desc);
+    struct LightingAndView {
+        CndLighting lighting = nullptr;
+        CndLightingView view = nullptr;
+    };
+    // Creates a lighting and a view for `g`, which TearDown destroys.
+    LightingAndView createLighting(const CpuGBuffer& g, CndLightingDesc desc);
     // Creates them for the specular method of RunOptions.
-    std::pair<CndLighting, CndLightingView> createLighting(const CpuGBuffer& g,
-                                                           uint32_t framesInFlight);
+    LightingAndView createLighting(const CpuGBuffer& g, uint32_t framesInFlight);
     static void setLights(CndLighting lighting, const std::vector<CndLight>& lights);
+    static CndLightingStats statsOf(CndLightingView view, uint32_t frameSlot = 0);
 
     // The images of one G-buffer on the device.
     struct Images {
@@ -153,9 +156,16 @@ protected:
     static constexpr double batchesOnLlvmpipe = 1e-6; // what other sums of batches may change
     std::vector<glm::vec4> readRadiance(const Images& images) const;
     void clearRadiance(VkCommandBuffer cmd, const Images& images);
+    // Clears the radiance, draws a frame and returns the radiance.
+    std::vector<glm::vec4> drawFrame(CndLightingView view, const CndLightingFrame& frame,
+                                     const Images& images);
+    // Expects that the frame is refused with a message that contains `word`.
+    void expectRefused(CndLightingView view, const CndLightingFrame& frame, const char* word);
     CndLightingFrame frameOf(const CpuGBuffer& g, const Images& images, const RunOptions& options);
 
 private:
+    std::vector<LightingAndView> created_; // by createLighting
+
     // Without a GPU, making the pipelines of a lighting takes longer than the frame. So the tests
     // of a process share one for each layout of the G-buffer, number of material classes, and use
     // of influence by error. Runs with functions or devices of hosts have lightings of their own.

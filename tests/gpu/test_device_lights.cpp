@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lights that are written on the device give the same image as lights from the host and none is
 // lost. Invalid ones are counted and show nothing.
-#include <cmath>
 #include <cstring>
 #include <limits>
-#include <tuple>
 
 #include "gpu/lighting_harness.h"
 #include "harness/constants.h"
@@ -154,21 +152,15 @@ TEST_F(DeviceLightsTest, AreReadAgainWithEverySet)
                                 second = randomSpheres(g_, 50, 11);
     fill(first);
     CndDeviceLights device = desc(CND_LIGHT_SPHERE, 50, 0); // none at first
-    CndLighting lighting{};
-    CndLightingView view{};
-    std::tie(lighting, view) = createLighting(g_, 2);
+    const auto own = createLighting(g_, 2);
     const Images images = uploadImages(g_);
     CndError error{};
     const auto frame = [&](uint32_t slot) {
         const CndLightSet set{.structSize = sizeof set, .deviceLights = &device};
-        EXPECT_EQ(cndSetLights(lighting, &set, &error), CND_SUCCESS) << error.message;
+        EXPECT_EQ(cndSetLights(own.lighting, &set, &error), CND_SUCCESS) << error.message;
         CndLightingFrame f = frameOf(g_, images, {});
         f.frameSlot = slot;
-        context().submitAndWait([&](VkCommandBuffer cmd) {
-            clearRadiance(cmd, images);
-            EXPECT_EQ(cndRecordLighting(view, cmd, &f, &error), CND_SUCCESS) << error.message;
-        });
-        return readRadiance(images);
+        return drawFrame(own.view, f, images);
     };
     for (const glm::vec4& pixel : frame(0))
         EXPECT_EQ(glm::vec3(pixel), glm::vec3(0));
@@ -181,8 +173,6 @@ TEST_F(DeviceLightsTest, AreReadAgainWithEverySet)
     device.maxCount = 20;
     const std::vector<CndLight> some(second.begin(), second.begin() + 20);
     EXPECT_LE(maxRelativeDifference(frame(1), run(g_, some).radiance), 1e-6);
-    cndDestroyLightingView(view);
-    cndDestroyLighting(lighting);
 }
 
 TEST_F(DeviceLightsTest, StayWhenLightsAreAddedBesideThem)
@@ -190,9 +180,7 @@ TEST_F(DeviceLightsTest, StayWhenLightsAreAddedBesideThem)
     const std::vector<CndLight> spheres = randomSpheres(g_, 60, 13);
     fill(spheres);
     const CndDeviceLights device = desc(CND_LIGHT_SPHERE, 60, 60);
-    CndLighting lighting{};
-    CndLightingView view{};
-    std::tie(lighting, view) = createLighting(g_, 2);
+    const auto own = createLighting(g_, 2);
     const Images images = uploadImages(g_);
     CndError error{};
     std::vector<CndLight> all = spheres;
@@ -200,43 +188,35 @@ TEST_F(DeviceLightsTest, StayWhenLightsAreAddedBesideThem)
     const auto addAndCompare = [&](uint32_t count) { // adds lights, which need larger buffers
         const std::vector<CndLight> more = randomSpheres(g_, count, count);
         std::vector<CndLightId> ids(count);
-        EXPECT_EQ(cndAddLights(lighting, count, more.data(), ids.data(), &error), CND_SUCCESS);
+        EXPECT_EQ(cndAddLights(own.lighting, count, more.data(), ids.data(), &error), CND_SUCCESS);
         all.insert(all.end(), more.begin(), more.end());
         f.frameSlot = 1 - f.frameSlot;
-        context().submitAndWait([&](VkCommandBuffer cmd) {
-            clearRadiance(cmd, images);
-            EXPECT_EQ(cndRecordLighting(view, cmd, &f, &error), CND_SUCCESS) << error.message;
-        });
-        EXPECT_LE(maxRelativeDifference(readRadiance(images), run(g_, all).radiance), 1e-6);
+        EXPECT_LE(maxRelativeDifference(drawFrame(own.view, f, images), run(g_, all).radiance),
+                  1e-6);
     };
     const CndLightSet set{.structSize = sizeof set, .deviceLights = &device};
-    EXPECT_EQ(cndSetLights(lighting, &set, &error), CND_SUCCESS) << error.message;
+    EXPECT_EQ(cndSetLights(own.lighting, &set, &error), CND_SUCCESS) << error.message;
     addAndCompare(1100); // before the lights of the device have been read
     addAndCompare(30);
     addAndCompare(1200);
-    const CndLightSet none{.structSize = sizeof none}; // the same buffers with other records
-    EXPECT_EQ(cndSetLights(lighting, &none, &error), CND_SUCCESS) << error.message;
+    setLights(own.lighting, {}); // the same buffers with other records
     all.clear();
     addAndCompare(4000);
-    EXPECT_EQ(cndSetLights(lighting, &set, &error), CND_SUCCESS) << error.message;
+    EXPECT_EQ(cndSetLights(own.lighting, &set, &error), CND_SUCCESS) << error.message;
     all = spheres;
     addAndCompare(10);
-    cndDestroyLightingView(view);
-    cndDestroyLighting(lighting);
 }
 
 TEST_F(DeviceLightsTest, ArgumentsOutOfRangeAreNamed)
 {
     fill(randomSpheres(g_, 10, 12));
-    CndLighting lighting{};
-    CndLightingView view{};
-    std::tie(lighting, view) = createLighting(g_, 1);
+    const auto own = createLighting(g_, 1);
     const auto expect = [&](const char* named, CndResult code, auto change) {
         CndDeviceLights device = desc(CND_LIGHT_SPHERE, 10, 10);
         change(device);
         const CndLightSet set{.structSize = sizeof set, .deviceLights = &device};
         CndError error{};
-        EXPECT_EQ(cndSetLights(lighting, &set, &error), code) << named;
+        EXPECT_EQ(cndSetLights(own.lighting, &set, &error), code) << named;
         EXPECT_NE(std::string(error.message).find(named), std::string::npos) << error.message;
     };
     constexpr CndResult argument = CND_ERROR_INVALID_ARGUMENT;
@@ -251,8 +231,6 @@ TEST_F(DeviceLightsTest, ArgumentsOutOfRangeAreNamed)
     expect("layers", argument, [](CndDeviceLights& d) { d.layers = 1u << CND_LAYER_COUNT; });
     expect("4000000000", CND_ERROR_UNSUPPORTED,
            [](CndDeviceLights& d) { d.maxCount = 4000000000u; });
-    cndDestroyLightingView(view);
-    cndDestroyLighting(lighting);
 }
 
 } // namespace

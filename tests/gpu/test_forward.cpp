@@ -4,7 +4,6 @@
 // behind and beside them.
 #include <cmath>
 #include <iostream>
-#include <tuple>
 
 #include "candelabra_probes.h"
 #include "gpu/kernel.h"
@@ -26,14 +25,14 @@ class ForwardTest : public LightingTest
 protected:
     void create(const CpuGBuffer& g, const std::vector<CndLight>& lights, bool byError = false)
     {
-        std::tie(lighting_, view_) = createLighting(
+        own_ = createLighting(
             g, CndLightingDesc{.framesInFlight = 2,
                                .specularMethods = 1u << CND_SPECULAR_CONIC,
                                .shading = CND_SHADING_CLUSTERED_BIT | CND_SHADING_BRUTE_BIT,
                                .forwardStages = VK_SHADER_STAGE_COMPUTE_BIT,
                                .influenceByError = byError});
-        ASSERT_TRUE(lighting_ && view_);
-        setLights(lighting_, lights);
+        ASSERT_TRUE(own_.lighting && own_.view);
+        setLights(own_.lighting, lights);
         createPipeline();
     }
     void TearDown() override
@@ -41,15 +40,13 @@ protected:
         pipeline_ = {};
         layout_ = {};
         bindings_ = {};
-        cndDestroyLightingView(view_);
-        cndDestroyLighting(lighting_);
         LightingTest::TearDown();
     }
     void createPipeline()
     {
         CndError error{};
         VkDescriptorSetLayout forward{};
-        ASSERT_EQ(cndGetForwardSetLayout(lighting_, &forward, &error), CND_SUCCESS)
+        ASSERT_EQ(cndGetForwardSetLayout(own_.lighting, &forward, &error), CND_SUCCESS)
             << error.message;
         constexpr VkDescriptorType image = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
         bindings_ =
@@ -107,7 +104,8 @@ protected:
         CndLightingFrame f = frameOf(seen, images, options);
         f.frameSlot = slot_ = 1 - slot_;
         VkDescriptorSet forward{};
-        EXPECT_EQ(cndGetForwardSet(view_, slot_, &forward, &error), CND_SUCCESS) << error.message;
+        EXPECT_EQ(cndGetForwardSet(own_.view, slot_, &forward, &error), CND_SUCCESS)
+            << error.message;
         const uint32_t count = at.width * at.height;
         const gpu::Buffer out =
             readback("forward outputs", count * sizeof(gpu::ForwardProbeOutput));
@@ -125,7 +123,7 @@ protected:
                                              .shadowed = shadowed};
         context().submitAndWait([&](VkCommandBuffer cmd) {
             clearRadiance(cmd, images);
-            EXPECT_EQ(cndRecordLighting(view_, cmd, &f, &error), CND_SUCCESS) << error.message;
+            EXPECT_EQ(cndRecordLighting(own_.view, cmd, &f, &error), CND_SUCCESS) << error.message;
             const gpu::Device& d = device();
             const VkDescriptorSet sets[] = {bindings_.set(0), forward};
             d.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
@@ -136,7 +134,7 @@ protected:
             d.CmdDispatch(cmd, gpu::divideUp(count, gpu::FORWARD_PROBE_GROUP), 1, 1);
             // The next frame may be recorded immediately: the module waits for the shader above.
             f.frameSlot = slot_ = 1 - slot_;
-            EXPECT_EQ(cndRecordLighting(view_, cmd, &f, &error), CND_SUCCESS) << error.message;
+            EXPECT_EQ(cndRecordLighting(own_.view, cmd, &f, &error), CND_SUCCESS) << error.message;
             fullBarrier(cmd);
         });
         const auto values = out.as<gpu::ForwardProbeOutput>();
@@ -171,8 +169,7 @@ protected:
         EXPECT_LE(difference, std::max(acrossPipelines, 4 * moved));
     }
 
-    CndLighting lighting_{};
-    CndLightingView view_{};
+    LightingAndView own_;
     uint32_t slot_ = 0;
     gpu::Bindings bindings_;
     gpu::Handle<VkPipelineLayout> layout_;
@@ -244,9 +241,7 @@ TEST_F(ForwardTest, OfEachTypeAloneEqualsTheDeferredResult)
     const RunOptions options{.specular = CND_SPECULAR_CONIC};
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
         const std::vector<CndLight> lights = lightsOf(CndLightType(type), seen, 40, 50 + type);
-        CndError error{};
-        const CndLightSet set{.structSize = sizeof set, .count = 40, .lights = lights.data()};
-        ASSERT_EQ(cndSetLights(lighting_, &set, &error), CND_SUCCESS) << error.message;
+        setLights(own_.lighting, lights);
         // The view sorts lights by how hard their outlines are, and evaluates the easy ones by
         // shorter code. Where the lobe is as narrow as allowed, rounding differs by up to 3e-4.
         const bool byOutline = type == CND_LIGHT_TUBE || type == CND_LIGHT_RECTANGLE ||
@@ -269,8 +264,7 @@ TEST_F(ForwardTest, UnderLightsThatAreCutByAnError)
         .specular = CND_SPECULAR_CONIC,
         .influence = {.rule = CND_INFLUENCE_BY_ERROR, .maxError = 0.1f, .exposure = 0.003f}};
     const Lit cut = frame(seen, seen, options);
-    CndLightingStats stats{.structSize = sizeof stats};
-    ASSERT_EQ(cndGetLightingStats(view_, slot_, &stats), CND_SUCCESS);
+    const CndLightingStats stats = statsOf(own_.view, slot_);
     EXPECT_GT(stats.cutBelow, 0);
     std::vector<glm::vec4> twice = cut.lit();
     for (glm::vec4& pixel : twice)
@@ -348,7 +342,7 @@ TEST_F(ForwardTest, IlluminanceForVolumes)
 TEST_F(ForwardTest, SetsThatAreNotThereAreNamed)
 {
     const CpuGBuffer g = gbuffer(10);
-    const auto [lighting, view] = createLighting(g, 1);
+    const auto own = createLighting(g, 1);
     CndError error{};
     VkDescriptorSetLayout layout{};
     VkDescriptorSet set{};
@@ -357,17 +351,15 @@ TEST_F(ForwardTest, SetsThatAreNotThereAreNamed)
         EXPECT_NE(std::string(error.message).find("forwardStages"), std::string::npos)
             << error.message;
     };
-    refused(cndGetForwardSetLayout(lighting, &layout, &error));
-    refused(cndGetForwardSet(view, 0, &set, &error));
-    cndDestroyLightingView(view);
-    cndDestroyLighting(lighting);
+    refused(cndGetForwardSetLayout(own.lighting, &layout, &error));
+    refused(cndGetForwardSet(own.view, 0, &set, &error));
     const CndLightingDesc desc{.structSize = sizeof desc,
                                .framesInFlight = 1,
                                .forwardStages = VK_SHADER_STAGE_GEOMETRY_BIT};
     CndLighting none{};
     refused(cndCreateLighting(&deviceDesc(), &desc, &none, &error));
     create(g, {});
-    EXPECT_EQ(cndGetForwardSet(view_, 2, &set, &error), CND_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(cndGetForwardSet(own_.view, 2, &set, &error), CND_ERROR_INVALID_ARGUMENT);
     EXPECT_NE(std::string(error.message).find("frameSlot is 2"), std::string::npos);
 }
 

@@ -4,7 +4,6 @@
 // layout.
 #include <cstdlib>
 #include <string>
-#include <tuple>
 
 #include "candelabra/compiler.hpp"
 #include "gpu/environment_harness.h"
@@ -88,8 +87,7 @@ protected:
         return options;
     }
 
-    // Creates a lighting and a view, which the caller must destroy.
-    std::pair<CndLighting, CndLightingView> create(const RunOptions& options)
+    LightingAndView create(const RunOptions& options)
     {
         images_ = uploadImages(g_);
         return createLighting(g_, CndLightingDesc{.framesInFlight = 1,
@@ -109,11 +107,6 @@ protected:
         EXPECT_EQ(cndCreateLightingView(lighting, &desc, &view, &error), CND_SUCCESS)
             << error.message;
         return view;
-    }
-    static void destroy(CndLighting lighting, CndLightingView view)
-    {
-        cndDestroyLightingView(view);
-        cndDestroyLighting(lighting);
     }
     // Puts linear depths, in metres, in place of images_.depth.
     void storeLinearDepth()
@@ -143,13 +136,7 @@ protected:
     }
     std::vector<glm::vec4> frame(CndLightingView view, const RunOptions& options)
     {
-        CndError error{};
-        const CndLightingFrame f = frameOf(g_, images_, options);
-        context().submitAndWait([&](VkCommandBuffer cmd) {
-            clearRadiance(cmd, images_);
-            EXPECT_EQ(cndRecordLighting(view, cmd, &f, &error), CND_SUCCESS) << error.message;
-        });
-        return readRadiance(images_);
+        return drawFrame(view, frameOf(g_, images_, options), images_);
     }
 
     // Returns the picture of what is read from the G-buffer.
@@ -194,9 +181,7 @@ TEST_F(HostFunctions, AShadowTermScalesEachLightById)
     setLights(lighting, lights);
     const std::vector<glm::vec4> image = frame(view, options);
     EXPECT_TRUE(agree(frame(narrow, options), image));
-    CndLightingStats stats{.structSize = sizeof stats};
-    EXPECT_EQ(cndGetLightingStats(narrow, 0, &stats), CND_SUCCESS);
-    EXPECT_GT(stats.unlistedClusters, 0u);
+    EXPECT_GT(statsOf(narrow).unlistedClusters, 0u);
     RunOptions brute = options;
     brute.culling = CND_CULLING_BRUTE;
     EXPECT_TRUE(agree(frame(view, brute), image));
@@ -206,7 +191,6 @@ TEST_F(HostFunctions, AShadowTermScalesEachLightById)
     setLights(lighting, scaled);
     EXPECT_TRUE(sameBits(frame(view, options), image));
     cndDestroyLightingView(narrow);
-    destroy(lighting, view);
 }
 
 // The form of shading that GPUs run asks the shadow term for the same lights.
@@ -237,40 +221,36 @@ TEST_F(HostFunctions, IdsStayThroughEdits)
                                               .lightTypes = 1u << CND_LIGHT_POINT,
                                               .specularMethods = 1u << RunOptions{}.specular});
     const RunOptions options = withShadows(kernels);
-    CndLighting lighting{};
-    CndLightingView view{};
-    std::tie(lighting, view) = create(options);
-    CndLighting plain{};
-    CndLightingView plainView{};
-    std::tie(plain, plainView) = create({});
+    const LightingAndView own = create(options);
+    const LightingAndView plain = create({});
     std::vector<CndLight> lights = randomSpheres(g_, 120, 9);
     for (size_t i = 0; i < lights.size(); i += 2)
         lights[i].type = CND_LIGHT_POINT;
     std::vector<CndLightId> ids(lights.size());
     CndError error{};
     const auto add = [&](size_t first, size_t count) {
-        EXPECT_EQ(cndAddLights(lighting, uint32_t(count), &lights[first], &ids[first], &error),
+        EXPECT_EQ(cndAddLights(own.lighting, uint32_t(count), &lights[first], &ids[first], &error),
                   CND_SUCCESS);
         std::vector<CndLight> scaled;
         for (size_t i = first; i < first + count; ++i)
             scaled.push_back(shadowed(ids[i], lights[i]));
         std::vector<CndLightId> same(count);
-        EXPECT_EQ(cndAddLights(plain, uint32_t(count), scaled.data(), same.data(), &error),
+        EXPECT_EQ(cndAddLights(plain.lighting, uint32_t(count), scaled.data(), same.data(), &error),
                   CND_SUCCESS);
         EXPECT_TRUE(std::equal(same.begin(), same.end(), ids.begin() + long(first)));
     };
     add(0, 60);
-    const std::vector<glm::vec4> before = frame(plainView, {});
-    EXPECT_TRUE(agree(frame(view, options), before));
-    for (const CndLighting each : {lighting, plain})
+    const std::vector<glm::vec4> before = frame(plain.view, {});
+    EXPECT_TRUE(agree(frame(own.view, options), before));
+    for (const CndLighting each : {own.lighting, plain.lighting})
         EXPECT_EQ(cndRemoveLights(each, 20, &ids[5], &error), CND_SUCCESS) << error.message;
     add(60, 30);                        // some reuse the places of removed lights
     std::swap(lights[40], lights[100]); // another light under the same id
     const CndLight scaled = shadowed(ids[40], lights[40]);
-    EXPECT_EQ(cndUpdateLights(lighting, 1, &ids[40], &lights[40], &error), CND_SUCCESS);
-    EXPECT_EQ(cndUpdateLights(plain, 1, &ids[40], &scaled, &error), CND_SUCCESS);
-    const std::vector<glm::vec4> edited = frame(plainView, {});
-    EXPECT_TRUE(agree(frame(view, options), edited));
+    EXPECT_EQ(cndUpdateLights(own.lighting, 1, &ids[40], &lights[40], &error), CND_SUCCESS);
+    EXPECT_EQ(cndUpdateLights(plain.lighting, 1, &ids[40], &scaled, &error), CND_SUCCESS);
+    const std::vector<glm::vec4> edited = frame(plain.view, {});
+    EXPECT_TRUE(agree(frame(own.view, options), edited));
     EXPECT_FALSE(sameBits(edited, before));
 
     const std::vector<CndLight> onDevice = randomSpheres(g_, 3, 10);
@@ -293,12 +273,10 @@ TEST_F(HostFunctions, IdsStayThroughEdits)
                                  .boundsMax = {10, 10, 0},
                                  .influenceRadius = 2};
     const CndLightSet particles{.structSize = sizeof particles, .deviceLights = &device};
-    EXPECT_EQ(cndSetLights(lighting, &particles, &error), CND_SUCCESS) << error.message;
-    setLights(plain, seen);
-    const std::vector<glm::vec4> fromDevice = frame(view, options);
-    EXPECT_TRUE(agree(fromDevice, frame(plainView, {}), 1e-6));
-    destroy(lighting, view);
-    destroy(plain, plainView);
+    EXPECT_EQ(cndSetLights(own.lighting, &particles, &error), CND_SUCCESS) << error.message;
+    setLights(plain.lighting, seen);
+    const std::vector<glm::vec4> fromDevice = frame(own.view, options);
+    EXPECT_TRUE(agree(fromDevice, frame(plain.view, {}), 1e-6));
 }
 
 TEST_F(HostFunctions, ASurfaceThatTheHostReadsIsLitLikeOneOfOurLayout)
@@ -325,9 +303,7 @@ TEST_F(HostFunctions, ASurfaceThatTheHostReadsIsLitLikeOneOfOurLayout)
     images_.specular.view = {};
     options.countPairs = true;
     const std::vector<glm::vec4> clustered = frame(view, options);
-    CndLightingStats stats[2]{{.structSize = sizeof stats[0]}, {.structSize = sizeof stats[0]}};
-    EXPECT_EQ(cndGetLightingStats(view, 0, &stats[0]), CND_SUCCESS);
-    EXPECT_EQ(cndGetLightingStats(plainView, 0, &stats[1]), CND_SUCCESS);
+    const CndLightingStats stats[2]{statsOf(view), statsOf(plainView)};
     // Normals are normalised once more, so a light at the horizon may count in only one of the two.
     EXPECT_LE(maxRelativeDifference(clustered, expected), 1e-4);
     EXPECT_NEAR(double(stats[0].contributingPairs), double(stats[1].contributingPairs), 5);
@@ -340,8 +316,6 @@ TEST_F(HostFunctions, ASurfaceThatTheHostReadsIsLitLikeOneOfOurLayout)
         largest = std::max(largest, std::abs(int(ours[i]) - int(theirs[i])));
     EXPECT_LE(largest, 1);
     EXPECT_EQ(theirs.size(), ours.size());
-    destroy(lighting, view);
-    destroy(plain, plainView);
 
     const EnvironmentImage sky = imageOf([](const glm::dvec3& d) { return 2 + d.y; }, 64);
     setImage(sky, 64);
@@ -380,12 +354,10 @@ TEST_F(HostFunctions, ASurfaceThatTheHostReadsMayHaveLinearDepth)
     const auto [plain, plainView] = create({});
     setLights(plain, lights);
     const std::vector<glm::vec4> expected = frame(plainView, {});
-    destroy(plain, plainView);
     const auto [lighting, view] = create(options);
     setLights(lighting, lights);
     storeLinearDepth();
     EXPECT_LE(maxRelativeDifference(frame(view, options), expected), 1e-4);
-    destroy(lighting, view);
 }
 
 // A set layout alone requires no set. A shadow term does not affect the environment, which needs no
@@ -449,21 +421,14 @@ TEST_F(HostFunctions, WhatIsMissingOrForeignIsNamed)
     code.wordCount = 3;
     refused("is not SPIR-V", alone());
 
-    CndLighting lighting{};
-    CndLightingView view{};
-    std::tie(lighting, view) = create(options);
+    const LightingAndView own = create(options);
     CndError error{};
     CndLightId id{};
     const CndLight tube = lightsOf(CND_LIGHT_TUBE, g_, 1, 1)[0];
-    EXPECT_EQ(cndAddLights(lighting, 1, &tube, &id, &error), CND_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(cndAddLights(own.lighting, 1, &tube, &id, &error), CND_ERROR_INVALID_ARGUMENT);
     EXPECT_NE(std::string(error.message).find("shade_tiles:TUBE is missing"), std::string::npos)
         << error.message;
-    const CndLightingFrame frame = frameOf(g_, images_, {});
-    context().submitAndWait([&](VkCommandBuffer cmd) {
-        EXPECT_EQ(cndRecordLighting(view, cmd, &frame, &error), CND_ERROR_INVALID_ARGUMENT);
-    });
-    EXPECT_NE(std::string(error.message).find("hostSet is null"), std::string::npos);
-    destroy(lighting, view);
+    expectRefused(own.view, frameOf(g_, images_, {}), "hostSet is null");
 }
 
 } // namespace

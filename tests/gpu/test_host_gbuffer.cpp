@@ -9,7 +9,6 @@
 #include <cmath>
 #include <functional>
 #include <iostream>
-#include <tuple>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -509,10 +508,8 @@ TEST_F(SurfaceOverlay, AndLightingOfTheSameSlotHaveTheirOwnCameras)
     const CpuGBuffer g = randomGBuffer(imageWidth, imageHeight, 9);
     const Images images = uploadImages(g);
     const gpu::Image picture = createPicture(g.width, g.height);
-    CndLighting lighting{};
-    CndLightingView view{};
-    std::tie(lighting, view) = createLighting(g, 1);
-    setLights(lighting, randomSpheres(g, 40, 9));
+    const auto own = createLighting(g, 1);
+    setLights(own.lighting, randomSpheres(g, 40, 9));
     const CndLightingFrame frame = LightingTest::frameOf(g, images, {});
     CndLightingFrame zoomed = frame;
     setPerspective(zoomed.camera, 0.3, double(g.width) / g.height, nearPlane);
@@ -521,7 +518,7 @@ TEST_F(SurfaceOverlay, AndLightingOfTheSameSlotHaveTheirOwnCameras)
     const auto lightingOf = [&](const CndLightingFrame& f) -> Record {
         return [&](VkCommandBuffer cmd) {
             CndError error{};
-            EXPECT_EQ(cndRecordLighting(view, cmd, &f, &error), CND_SUCCESS) << error.message;
+            EXPECT_EQ(cndRecordLighting(own.view, cmd, &f, &error), CND_SUCCESS) << error.message;
         };
     };
     const auto overlayOf = [&](const CndLightingFrame& f) -> Record {
@@ -529,7 +526,7 @@ TEST_F(SurfaceOverlay, AndLightingOfTheSameSlotHaveTheirOwnCameras)
             const CndSurfaceOverlay position{sizeof position, CND_SURFACE_POSITION,
                                              picture.view.get()};
             CndError error{};
-            EXPECT_EQ(cndRecordSurfaceOverlay(view, cmd, &f, &position, &error), CND_SUCCESS)
+            EXPECT_EQ(cndRecordSurfaceOverlay(own.view, cmd, &f, &position, &error), CND_SUCCESS)
                 << error.message;
         };
     };
@@ -555,8 +552,6 @@ TEST_F(SurfaceOverlay, AndLightingOfTheSameSlotHaveTheirOwnCameras)
         EXPECT_TRUE(sameBits(lit, radiance));
         EXPECT_EQ(over, shown);
     }
-    cndDestroyLightingView(view);
-    cndDestroyLighting(lighting);
 }
 
 } // namespace

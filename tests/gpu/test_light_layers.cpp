@@ -3,7 +3,6 @@
 // statistics of the lists.
 #include <cstring>
 #include <string>
-#include <tuple>
 
 #include "gpu/lighting_harness.h"
 
@@ -53,17 +52,13 @@ protected:
 TEST_F(LightLayers, LeaveTheSameBitsAsASetWithoutTheOthers)
 {
     CndError error{};
-    const CndLightingDesc desc{.structSize = sizeof desc,
-                               .framesInFlight = 1,
-                               .shading = CND_SHADING_CLUSTERED_BIT | CND_SHADING_BRUTE_BIT |
-                                          CND_SHADING_COUNT_PAIRS_BIT};
-    CndLighting lighting{};
-    ASSERT_EQ(cndCreateLighting(&deviceDesc(), &desc, &lighting, &error), CND_SUCCESS);
-    CndLightingView views[2]{}; // the second has no room for lists
-    for (int i = 0; i < 2; ++i) {
-        const CndLightingViewDesc viewDesc{sizeof viewDesc, g_.width, g_.height, i ? 4096u : 0};
-        ASSERT_EQ(cndCreateLightingView(lighting, &viewDesc, &views[i], &error), CND_SUCCESS);
-    }
+    const auto own = createLighting(g_, CndLightingDesc{.framesInFlight = 1,
+                                                        .shading = CND_SHADING_CLUSTERED_BIT |
+                                                                   CND_SHADING_BRUTE_BIT |
+                                                                   CND_SHADING_COUNT_PAIRS_BIT});
+    const CndLightingViewDesc withoutRoom{sizeof withoutRoom, g_.width, g_.height, 4096};
+    CndLightingView narrow{}; // has no room for lists
+    ASSERT_EQ(cndCreateLightingView(own.lighting, &withoutRoom, &narrow, &error), CND_SUCCESS);
     const Images images = uploadImages(g_);
     const auto frame = [&](CndLightingView view, CndCulling culling, uint32_t layers) {
         const CndLightingFrame f = frameOf(g_, images,
@@ -71,20 +66,14 @@ TEST_F(LightLayers, LeaveTheSameBitsAsASetWithoutTheOthers)
                                             .culling = culling,
                                             .countPairs = true,
                                             .layers = layers});
-        context().submitAndWait([&](VkCommandBuffer cmd) {
-            clearRadiance(cmd, images);
-            EXPECT_EQ(cndRecordLighting(view, cmd, &f, &error), CND_SUCCESS) << error.message;
-        });
-        LightingResult result{.radiance = readRadiance(images)};
-        result.stats.structSize = sizeof result.stats;
-        EXPECT_EQ(cndGetLightingStats(view, 0, &result.stats), CND_SUCCESS);
-        return result;
+        std::vector<glm::vec4> radiance = drawFrame(view, f, images);
+        return LightingResult{std::move(radiance), statsOf(view)};
     };
     const std::vector<CndLight> lights = shown(), all = withHidden(lights);
-    setLights(lighting, lights);
-    const LightingResult expected = frame(views[0], CND_CULLING_CLUSTERED, 0);
-    setLights(lighting, all);
-    const LightingResult clustered = frame(views[0], CND_CULLING_CLUSTERED, 5);
+    setLights(own.lighting, lights);
+    const LightingResult expected = frame(own.view, CND_CULLING_CLUSTERED, 0);
+    setLights(own.lighting, all);
+    const LightingResult clustered = frame(own.view, CND_CULLING_CLUSTERED, 5);
     EXPECT_TRUE(sameBits(clustered, expected));
     EXPECT_EQ(clustered.stats.lightCount, all.size());
     EXPECT_EQ(clustered.stats.listEntries, expected.stats.listEntries);
@@ -92,14 +81,12 @@ TEST_F(LightLayers, LeaveTheSameBitsAsASetWithoutTheOthers)
     EXPECT_EQ(clustered.stats.insidePairs, expected.stats.insidePairs);
     EXPECT_EQ(clustered.stats.contributingPairs, expected.stats.contributingPairs);
     EXPECT_GT(clustered.stats.contributingPairs, 0u);
-    const LightingResult unlisted = frame(views[1], CND_CULLING_CLUSTERED, 5);
+    const LightingResult unlisted = frame(narrow, CND_CULLING_CLUSTERED, 5);
     EXPECT_GT(unlisted.stats.unlistedClusters, 0u);
     EXPECT_TRUE(agree(unlisted.radiance, expected.radiance));
-    EXPECT_TRUE(agree(frame(views[0], CND_CULLING_BRUTE, 5).radiance, expected.radiance));
-    EXPECT_FALSE(sameBits(frame(views[0], CND_CULLING_CLUSTERED, 0), expected)); // all layers
-    for (CndLightingView view : views)
-        cndDestroyLightingView(view);
-    cndDestroyLighting(lighting);
+    EXPECT_TRUE(agree(frame(own.view, CND_CULLING_BRUTE, 5).radiance, expected.radiance));
+    EXPECT_FALSE(sameBits(frame(own.view, CND_CULLING_CLUSTERED, 0), expected)); // all layers
+    cndDestroyLightingView(narrow);
 }
 
 TEST_F(LightLayers, ChangeFromFrameToFrameAndByEdits)
@@ -110,20 +97,14 @@ TEST_F(LightLayers, ChangeFromFrameToFrameAndByEdits)
         lights[i].layers = 1;
     }
     std::vector<CndLight> all = withHidden(lights);
-    CndLighting lighting{};
-    CndLightingView view{};
-    std::tie(lighting, view) = createLighting(g_, 1);
+    const auto own = createLighting(g_, 1);
     const Images images = uploadImages(g_);
     CndError error{};
-    setLights(lighting, all);
+    setLights(own.lighting, all);
     const auto frame = [&](uint32_t layers) {
         CndLightingFrame f = frameOf(g_, images, {.layers = layers});
         f.surfacesUnchanged = VK_TRUE; // lists are kept while the layers stay the same
-        context().submitAndWait([&](VkCommandBuffer cmd) {
-            clearRadiance(cmd, images);
-            EXPECT_EQ(cndRecordLighting(view, cmd, &f, &error), CND_SUCCESS) << error.message;
-        });
-        return readRadiance(images);
+        return drawFrame(own.view, f, images);
     };
     std::vector<CndLight> others;
     for (size_t i = 1; i < all.size(); i += 2)
@@ -135,8 +116,7 @@ TEST_F(LightLayers, ChangeFromFrameToFrameAndByEdits)
     EXPECT_TRUE(sameBits(frame(1), first));
     // No light is in this layer: nothing runs.
     EXPECT_TRUE(sameBits(frame(8), std::vector<glm::vec4>(first.size(), glm::vec4(0))));
-    CndLightingStats stats{.structSize = sizeof stats};
-    ASSERT_EQ(cndGetLightingStats(view, 0, &stats), CND_SUCCESS);
+    const CndLightingStats stats = statsOf(own.view);
     bool found = false;
     for (uint32_t i = 0; i < stats.passCount; ++i)
         if (std::string(stats.passes[i].name) == "shade_tiles") {
@@ -148,7 +128,8 @@ TEST_F(LightLayers, ChangeFromFrameToFrameAndByEdits)
     for (size_t i = 0; i < all.size(); ++i) {
         all[i].layers = 3 & ~all[i].layers;
         const CndLightId id = i;
-        ASSERT_EQ(cndUpdateLights(lighting, 1, &id, &all[i], &error), CND_SUCCESS) << error.message;
+        ASSERT_EQ(cndUpdateLights(own.lighting, 1, &id, &all[i], &error), CND_SUCCESS)
+            << error.message;
     }
     EXPECT_TRUE(sameBits(frame(2), first));
     // More of these lights, in a layer that had none.
@@ -156,13 +137,12 @@ TEST_F(LightLayers, ChangeFromFrameToFrameAndByEdits)
     for (CndLight& light : others)
         light.layers = 4;
     std::vector<CndLightId> added(others.size());
-    ASSERT_EQ(cndAddLights(lighting, uint32_t(others.size()), others.data(), added.data(), &error),
-              CND_SUCCESS)
+    ASSERT_EQ(
+        cndAddLights(own.lighting, uint32_t(others.size()), others.data(), added.data(), &error),
+        CND_SUCCESS)
         << error.message;
     EXPECT_TRUE(sameBits(frame(2), first));
     EXPECT_TRUE(sameBits(frame(4), expected));
-    cndDestroyLightingView(view);
-    cndDestroyLighting(lighting);
 }
 
 TEST_F(LightLayers, OfLightsOnTheDevice)
@@ -214,23 +194,16 @@ TEST_F(LightLayers, OfLightsOnTheDevice)
 
 TEST_F(LightLayers, BeyondTheLastAreNamed)
 {
-    CndLighting lighting{};
-    CndLightingView view{};
-    std::tie(lighting, view) = createLighting(g_, 1);
+    const auto own = createLighting(g_, 1);
     const Images images = uploadImages(g_);
     CndError error{};
     CndLight light = randomSpheres(g_, 1, 1)[0];
     light.layers = 1u << CND_LAYER_COUNT;
     const CndLightSet set{sizeof set, 1, &light, {}, nullptr};
-    EXPECT_EQ(cndSetLights(lighting, &set, &error), CND_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(cndSetLights(own.lighting, &set, &error), CND_ERROR_INVALID_ARGUMENT);
     EXPECT_STREQ(error.message, "lights[0]: layers has bits beyond CND_LAYER_COUNT");
     const CndLightingFrame frame = frameOf(g_, images, {.layers = 1u << CND_LAYER_COUNT});
-    context().submitAndWait([&](VkCommandBuffer cmd) {
-        EXPECT_EQ(cndRecordLighting(view, cmd, &frame, &error), CND_ERROR_INVALID_ARGUMENT);
-    });
-    EXPECT_STREQ(error.message, "CndLightingFrame: layers has bits beyond CND_LAYER_COUNT");
-    cndDestroyLightingView(view);
-    cndDestroyLighting(lighting);
+    expectRefused(own.view, frame, "CndLightingFrame: layers has bits beyond CND_LAYER_COUNT");
 }
 
 } // namespace

@@ -119,23 +119,13 @@ protected:
     }
     std::vector<glm::vec4> frame()
     {
-        CndError error{};
         CndLightingFrame f = frameOf(g_, images_, {});
         f.frameSlot = slot_ = 1 - slot_;
         copyCounter.copied = 0;
         copyCounter.copies = copyCounter.edited = copyCounter.next = 0;
-        context().submitAndWait([&](VkCommandBuffer cmd) {
-            clearRadiance(cmd, images_);
-            EXPECT_EQ(cndRecordLighting(view_, cmd, &f, &error), CND_SUCCESS) << error.message;
-        });
-        return readRadiance(images_);
+        return drawFrame(view_, f, images_);
     }
-    void set(const std::vector<CndLight>& lights)
-    {
-        CndError error{};
-        const CndLightSet s{sizeof s, uint32_t(lights.size()), lights.data(), {}, nullptr};
-        EXPECT_EQ(cndSetLights(lighting_, &s, &error), CND_SUCCESS) << error.message;
-    }
+    void set(const std::vector<CndLight>& lights) { setLights(lighting_, lights); }
     std::vector<CndLightId> add(const std::vector<CndLight>& lights)
     {
         CndError error{};

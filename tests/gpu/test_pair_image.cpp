@@ -2,9 +2,6 @@
 // The pair image must hold, pixel by pixel, what the statistics sum up.
 #include "gpu/lighting_harness.h"
 
-#include <cmath>
-#include <tuple>
-
 namespace candelabra::test
 {
 
@@ -15,22 +12,13 @@ TEST_F(LightingTest, PairImageSumsToTheStatistics)
     for (size_t i = 0; i < lights.size(); i += 3)
         lights[i].type = CND_LIGHT_POINT; // the counts of two types are added
     const Images images = uploadImages(g), pairs = uploadImages(g);
-    CndError error{};
-    CndLighting lighting{};
-    CndLightingView view{};
-    std::tie(lighting, view) = createLighting(g, 1);
-    ASSERT_TRUE(lighting && view);
-    const CndLightSet set{sizeof set, uint32_t(lights.size()), lights.data(), {}};
-    ASSERT_EQ(cndSetLights(lighting, &set, &error), CND_SUCCESS) << error.message;
+    const auto own = createLighting(g, 1);
+    setLights(own.lighting, lights);
     CndLightingFrame frame = frameOf(g, images, {.countPairs = true});
     frame.pairImage = pairs.radiance.view.get();
-    context().submitAndWait([&](VkCommandBuffer cmd) {
-        clearRadiance(cmd, images);
-        clearRadiance(cmd, pairs);
-        EXPECT_EQ(cndRecordLighting(view, cmd, &frame, &error), CND_SUCCESS) << error.message;
-    });
-    CndLightingStats stats{.structSize = sizeof stats};
-    ASSERT_EQ(cndGetLightingStats(view, 0, &stats), CND_SUCCESS);
+    context().submitAndWait([&](VkCommandBuffer cmd) { clearRadiance(cmd, pairs); });
+    drawFrame(own.view, frame, images);
+    const CndLightingStats stats = statsOf(own.view);
     const std::vector<glm::vec4> counted = readRadiance(pairs);
     glm::dvec3 sum(0);
     int ofClass[4] = {};
@@ -49,8 +37,6 @@ TEST_F(LightingTest, PairImageSumsToTheStatistics)
     EXPECT_GT(ofClass[CND_PIXEL_OF_SLICE], 0);
     EXPECT_LE(ofClass[CND_PIXEL_OF_SLICE], int(64 * stats.splitTileCount));
     EXPECT_EQ(ofClass[CND_PIXEL_UNLISTED], 0);
-    cndDestroyLightingView(view);
-    cndDestroyLighting(lighting);
 }
 
 } // namespace candelabra::test
