@@ -116,7 +116,7 @@ BAD = {
     "--middle-grey": [*NUMBERS, "0", "1.1"], "--bloom": [*NUMBERS, "-0.1", "1.1"],
     "--committed": ["no/such/folder", "file.txt"],
     "--device": ["99", "no such device"], "--json": PLACES, "--csv": PLACES, "--trace": PLACES,
-    "--html": PLACES, "--out": ["file.txt", "/dev/null/x", "file.txt/x"],
+    "--out": ["file.txt", "/dev/null/x", "file.txt/x"],
     "--pick": ["4", "8,0", "0,8", "a,b", "-1,0", "1,2,3"],
     "--output": ["x.bmp", "x", "no/such/x.png", "/dev/full", "folder.png"],
     "--path": [*NAMES, "file.txt", "empty.json", "folder.json"], "--check": NAMES, "--light-costs": COUNTS, "--rounds": [*COUNTS, "0"],

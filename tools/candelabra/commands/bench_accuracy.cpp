@@ -9,9 +9,8 @@
 #include "commands/bench_commands.h"
 #include "commands/messages.h"
 #include "io/error.h"
-#include "io/image.h"
-#include "measure/accuracy/accuracy_page.h"
-#include "measure/accuracy/low_roughness.h"
+#include "measure/accuracy/image_level.h"
+#include "measure/accuracy/kernel_level.h"
 #include "measure/accuracy/thin_lights.h"
 #include "render/provenance.h"
 #include "scene/scene_options.h"
@@ -25,7 +24,7 @@ struct AccuracyArguments {
     DeviceArguments device;
     std::string groups = "300", rounds = "15", seed = "1", samples = "16";
     std::string size = "192x144", frames = "5";
-    std::string directory = "out", json, html;
+    std::string directory = "out", json;
 };
 
 KernelLevelSettings kernelSettings(const AccuracyArguments& a)
@@ -53,11 +52,8 @@ int accuracy(const ProgramContext& program, const AccuracyArguments& a)
     const KernelLevelSettings kernels = kernelSettings(a);
     const ImageLevelSettings images = imageSettings(a);
     const std::string json = benchOutput(a.directory, "--json", a.json, "bench_accuracy.json");
-    const std::string html = benchOutput(a.directory, "--html", a.html, "bench_accuracy.html");
     const std::string kernelSvg = benchOutput(a.directory, "--out", "", "bench_kernels.svg");
     const std::string imageSvg = benchOutput(a.directory, "--out", "", "bench_images.svg");
-    const std::string lowRoughnessPng =
-        benchOutput(a.directory, "--out", "", "bench_low_roughness.png");
 
     const VulkanContext context(a.device.contextOptions());
     spdlog::info("accuracy on {}", context.info().name);
@@ -73,26 +69,18 @@ int accuracy(const ProgramContext& program, const AccuracyArguments& a)
         Progress imageProgress(imageLevelSteps(images), !program.quiet);
         scenes = measureImages(context, images, imageProgress);
     }
-    const Json origin = provenance(context.info(), program.commandLine);
-    const auto lowRoughness = measureLowRoughness(context, 256);
-    savePng(lowRoughnessPng, uint32_t(256 * lowRoughness.size()), 256,
-            lowRoughnessPicture(lowRoughness));
     writeText(kernelSvg, kernelPlot(level, context.info()));
     writeText(imageSvg, imagePlot(scenes, context.info()));
-    writeText(html, accuracyPage(origin, level, scenes, context.info()));
     writeJson(json, {{"schema", "candelabra bench accuracy 1"},
-                     {"provenance", origin},
+                     {"provenance", provenance(context.info(), program.commandLine)},
                      {"kernels", kernelJson(kernels, level)},
                      {"thinLights", thinLightJson(thin, thinLights)},
                      {"images", imageJson(images, scenes)}});
     if (json != "-")
-        writeText(
-            "-",
-            textOf(kernelTables(level)) + "\n" + textOf(std::vector{thinLightTable(thinLights)}) +
-                "\n" + textOf(imageTables(scenes)) +
-                fmt::format("\nLook at {} and {} (perceptual roughness 0.01: naive karis, karis, "
-                            "conic)\n",
-                            html, lowRoughnessPng));
+        writeText("-", textOf(kernelTables(level)) + "\n" +
+                           textOf(std::vector{thinLightTable(thinLights)}) + "\n" +
+                           textOf(imageTables(scenes)) +
+                           fmt::format("\nLook at {} and {}\n", kernelSvg, imageSvg));
     return printValidationMessages(context) ? exitFailed : exitOk;
 }
 
@@ -109,8 +97,6 @@ void addOptions(CLI::App& command, AccuracyArguments& a)
               "timed frames of every method and scene, after one warm-up frame");
     addOption(command, "--seed", a.seed, "N", "seed of the random groups and lights");
     addBenchOutput(command, a.directory, a.json, "bench_accuracy.json");
-    addOption(command, "--html", a.html, "FILE",
-              "HTML page with all results (DIR/bench_accuracy.html)");
     a.device.addTo(command);
 }
 

@@ -9,7 +9,6 @@
 #include "io/html_page.h"
 #include "io/markup.h"
 #include "io/table.h"
-#include "render/provenance.h"
 #include "scene/light_types.h"
 
 namespace candelabra::app
@@ -129,20 +128,6 @@ std::vector<Table> accuracyDetails(const KernelLevel& kernels,
     for (const ImageScene& scene : scenes)
         out.push_back(worstPixelTable(scene));
     return out;
-}
-
-std::string accuracyPage(const Json& provenance, const KernelLevel& kernels,
-                         const std::vector<ImageScene>& scenes, const DeviceInfo& device)
-{
-    std::string out = pageHead("Candelabra: error against time") + "<h2>Pictures</h2>\n" +
-                      accuracyPictures(scenes) + "<h2>Errors and times</h2>\n" +
-                      accuracyPlots(kernels, scenes, device);
-    for (const Table& table : accuracyTables(kernels, scenes))
-        out += table.html();
-    for (const Table& table : accuracyDetails(kernels, scenes))
-        out += folded("Table: " + table.title(), table.html());
-    return out + "<h2>What was measured on what</h2>\n" + provenanceTable(provenance).html() +
-           pageEnd();
 }
 
 } // namespace candelabra::app

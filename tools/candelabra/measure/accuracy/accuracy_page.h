@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The results of the accuracy benchmark as a page.
+// What the page of `candelabra report` shows of the accuracy benchmark.
 #pragma once
 
 #include <string>
@@ -20,9 +20,5 @@ std::vector<Table> accuracyTables(const KernelLevel& kernels,
 // The worst samples and pixels, in long tables.
 std::vector<Table> accuracyDetails(const KernelLevel& kernels,
                                    const std::vector<ImageScene>& scenes);
-
-// The whole page of `candelabra bench accuracy`.
-std::string accuracyPage(const Json& provenance, const KernelLevel& kernels,
-                         const std::vector<ImageScene>& scenes, const DeviceInfo& device);
 
 } // namespace candelabra::app

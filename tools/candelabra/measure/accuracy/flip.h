@@ -3,7 +3,6 @@
 // no package of it.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "io/image.h"
