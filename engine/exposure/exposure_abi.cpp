@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The C ABI of the exposure module.
-#include <string>
 
 #include "exposure/exposure_module.h"
 #include "gpu/planning.h"

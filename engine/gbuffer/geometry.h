@@ -6,7 +6,6 @@
 // the constructor returns.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>

@@ -3,7 +3,6 @@
 // until it has. A recording is one call of a record function for one frame slot of one view.
 #pragma once
 
-#include <algorithm>
 #include <atomic>
 #include <memory>
 #include <string>

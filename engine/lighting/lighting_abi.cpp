@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <deque>
 #include <span>
-#include <string>
 
 #include "gpu/planning.h"
 #include "lighting/lighting_module.h"

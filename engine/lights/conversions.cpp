@@ -7,7 +7,6 @@
 #include <string>
 
 #include <glm/geometric.hpp>
-#include <glm/gtc/type_ptr.hpp>
 #include <glm/vec3.hpp>
 
 #include "candelabra/candelabra.h"

@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "reference/direction_domain.h"
 #include "reference/light.h"

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <string>
 
 #include "candelabra_shaders.h"
 #include "lights/light_types.h"

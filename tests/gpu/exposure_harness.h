@@ -3,7 +3,6 @@
 // images.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <random>
 #include <vector>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/raster_host.h"
 
-#include <cmath>
-
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "candelabra_probes.h"

@@ -3,7 +3,6 @@
 // with.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

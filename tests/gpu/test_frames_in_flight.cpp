@@ -6,12 +6,15 @@
 #include "harness/full_tests.h"
 
 #include <array>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
-#include <map>
 #include <mutex>
+#include <numeric>
+#include <random>
+#include <thread>
 #include <numeric>
 #include <random>
 #include <thread>

@@ -3,7 +3,6 @@
 // its own world, and into radiance of its own format. The lit image is that of the native path:
 // layout FULL, reversed depth, a right-handed world, 32-bit radiance.
 #include <iostream>
-#include <map>
 #include <tuple>
 
 #include <glm/gtc/packing.hpp>

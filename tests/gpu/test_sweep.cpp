@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compares the shaders' sphere lights in float32 with the same formulas in double precision, on the
 // inputs of `candelabra bench stability`.
-#include <array>
 #include <cmath>
 
 #include "formula/formula.h"

@@ -3,10 +3,8 @@
 // one is.
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Formats and layouts of the images that hosts pass: what is accepted, and the sentence for every
 // other value.
-#include <algorithm>
 #include <string>
 
 #include <gtest/gtest.h>

@@ -2,7 +2,6 @@
 // What each module needs of a device: everything that is listed has a sentence of its own when it
 // is missing, and the code of the module's kernels needs no more and no less.
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <functional>
 #include <string>

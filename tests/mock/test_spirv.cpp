@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reflection of SPIR-V, on modules written here word by word. Instructions that are too short, ids
 // of the wrong kind and types that contain themselves must be refused instead of misread.
-#include <algorithm>
 #include <string>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the generated scene of depth discontinuities.
-#include <cmath>
 #include <cstring>
 
 #include <gtest/gtest.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the viewer's camera.
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests what the viewer's editor does to lights: they stay valid and keep their power.
-#include <cmath>
 #include <cstring>
 
 #include <gtest/gtest.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the reference renderer against images of an independent path tracer, and its geometry.
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <span>
 #include <stdexcept>

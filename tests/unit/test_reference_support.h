@@ -8,7 +8,6 @@
 #include <numbers>
 #include <sstream>
 #include <string>
-#include <vector>
 
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <set>
 
-#include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 

@@ -2,7 +2,6 @@
 // candelabra_fit computes the fitted numbers that the shaders contain. It is not built by default.
 #include <cstdio>
 #include <exception>
-#include <string>
 
 #include <CLI/CLI.hpp>
 

@@ -9,7 +9,6 @@
 #error "candelabra/candelabra.hpp needs C++17. Use candelabra/candelabra.h with C and older C++."
 #endif
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdlib>

@@ -3,9 +3,7 @@
 // needs no other file.
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <memory>
-#include <optional>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Streets, blocks, houses, lamps and trees of the field.
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 

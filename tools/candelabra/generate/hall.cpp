@@ -3,12 +3,10 @@
 #include "generate/generators.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <numbers>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "generate/mesh_builder.h"
 #include "generate/shapes.h"

@@ -2,8 +2,6 @@
 // Finds the points of a set that are near a given point.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 

@@ -2,7 +2,6 @@
 // How far lights must reach so that a wanted number of them lights the average visible point.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include <glm/glm.hpp>

@@ -3,7 +3,6 @@
 #include "gltf/compression.h"
 
 #include <algorithm>
-#include <map>
 #include <optional>
 
 #include <draco/compression/mesh/mesh_edgebreaker_decoder.h>

@@ -3,7 +3,6 @@
 // loader.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include <glm/glm.hpp>

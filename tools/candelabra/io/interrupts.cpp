@@ -2,7 +2,6 @@
 #include "io/interrupts.h"
 
 #include <atomic>
-#include <climits>
 #include <csignal>
 #include <cstring>
 

@@ -4,7 +4,6 @@
 // the columns are known.
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>

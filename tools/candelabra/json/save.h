@@ -3,7 +3,6 @@
 // viewer are kept.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 

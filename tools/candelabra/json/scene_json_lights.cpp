@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "json/scene_json_lights.h"
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>

@@ -2,7 +2,6 @@
 #include "render/vulkan_instance.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cstring>
 #include <utility>

@@ -3,7 +3,6 @@
 // Vulkan. Units are metres, radians and photometric units; world space is right-handed with y up.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>

@@ -2,7 +2,6 @@
 // Stores computed truths in a directory, so that the same truth is not computed twice.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "truth/truth_file.h"

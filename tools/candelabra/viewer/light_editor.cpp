@@ -2,7 +2,6 @@
 #include "viewer/light_editor.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 

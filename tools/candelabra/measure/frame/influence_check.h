@@ -3,8 +3,6 @@
 // with all lights by brute force.
 #pragma once
 
-#include <functional>
-
 #include "io/report.h"
 #include "render/renderer.h"
 

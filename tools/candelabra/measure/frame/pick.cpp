@@ -2,7 +2,6 @@
 #include "measure/frame/pick.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 
 #include <fmt/format.h>

@@ -2,7 +2,6 @@
 #include "measure/kernels/light_kernels.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 #include <limits>
 

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <chrono>
-#include <string>
 
 #include "render/frame_stamps.h"
 #include "render/vulkan_context.h"

@@ -2,7 +2,6 @@
 #include "measure/profile/profile_frames.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 

@@ -2,7 +2,6 @@
 #include "measure/report/weak_sides.h"
 
 #include <algorithm>
-#include <utility>
 
 #include <fmt/format.h>
 
