@@ -6,15 +6,11 @@
 #include "harness/full_tests.h"
 
 #include <array>
-#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
 #include <mutex>
-#include <numeric>
-#include <random>
-#include <thread>
 #include <numeric>
 #include <random>
 #include <thread>

@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <numbers>
 #include <set>
 #include <sstream>
@@ -400,60 +399,15 @@ TEST_F(ProgramTest, ProfileKeepsFramesInFlight)
     EXPECT_LT(sum, took.count() - 300);
 }
 
-// Chrome's trace event format, as Perfetto reads it: the slices of a track nest and are in order.
-TEST_F(ProgramTest, ProfileTracesCpuAndGpuInOneTime)
+TEST_F(ProgramTest, ProfileKnowsWhatTimestampsCost)
 {
     const Outcome outcome = run("profile hall --lights 100 --size 64x36 --frames 6 --moving -q "
-                                "--trace t.json --json p.json --validate");
+                                "--json p.json --validate");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    const auto trace = nlohmann::json::parse(text("t.json"));
-    EXPECT_EQ(test::keyFaults(trace, "trace"), "");
-    if (context().getCalibratedTimestamps()) {
-        EXPECT_EQ(trace["otherData"]["clocksAlignedBy"], context().calibratedTimestampsExtension());
-    }
-    std::map<int, std::string> tracks;
-    std::map<std::string, double> endOf; // by track: end of the last slice that contains no others
-    std::map<int, std::map<std::string, double>> frames; // by frame: the time (us) of each event
-    std::set<std::string> passes;
-    for (const auto& event : trace["traceEvents"]) {
-        const std::string phase = event["ph"], name = event["name"];
-        ASSERT_TRUE(event["pid"].is_number_integer() && event["tid"].is_number_integer()) << event;
-        if (phase == "M") {
-            if (name == "thread_name")
-                tracks[event["tid"]] = event["args"]["name"];
-            continue;
-        }
-        const double ts = event["ts"];
-        if (phase == "X") {
-            const double duration = event["dur"];
-            const std::string track = tracks.at(event["tid"]);
-            EXPECT_GE(duration, 0) << event;
-            auto& frame = frames[event["args"]["frame"]];
-            if (track == "GPU passes")
-                passes.insert(name);
-            frame[track + " " + name] = ts;
-            frame[track + " " + name + " end"] = ts + duration;
-            if (name != "frame") {
-                EXPECT_GE(ts, endOf[track] - 1e-6) << event; // tolerance: rounding of sums
-                endOf[track] = ts + duration;
-            }
-        } else {
-            EXPECT_TRUE(phase == "s" || phase == "f") << event;
-        }
-    }
-    EXPECT_TRUE(passes.count("shade_tiles") && passes.count("gbuffer_raster"));
-    ASSERT_EQ(frames.size(), 6u);
-    for (auto& [index, at] : frames) {
-        EXPECT_LE(at["CPU upload"], at["CPU record"]) << index;
-        EXPECT_LE(at["CPU record end"], at["CPU submit"] + 1e-6) << index;
-        EXPECT_LT(at["CPU submit"], at["GPU frames frame"]) << index;
-        EXPECT_LT(at["GPU frames frame end"], at["CPU wait end"]) << index;
-    }
-
     const auto variant = nlohmann::json::parse(text("p.json"))["variants"][0];
     EXPECT_GT(variant["time"]["upload"]["medianMs"], 0);
     EXPECT_GT(variant["overhead"]["stampMs"], 0);
-    EXPECT_GE(variant["overhead"]["stamps"], passes.size());
+    EXPECT_GE(variant["overhead"]["stamps"], variant["time"]["passes"].size());
     // Hardly anything happens between the modules, and the cost of a timestamp is an estimate.
     EXPECT_GT(variant["overhead"]["passesOverGpuSpan"], 0.5);
     EXPECT_LT(variant["overhead"]["passesOverGpuSpan"], 1.05);

@@ -115,7 +115,7 @@ BAD = {
     "--environment-illuminance": [*NUMBERS, "-1", "0"], "--default-light": NAMES, "--fit": NAMES,
     "--middle-grey": [*NUMBERS, "0", "1.1"], "--bloom": [*NUMBERS, "-0.1", "1.1"],
     "--committed": ["no/such/folder", "file.txt"],
-    "--device": ["99", "no such device"], "--json": PLACES, "--csv": PLACES, "--trace": PLACES,
+    "--device": ["99", "no such device"], "--json": PLACES, "--csv": PLACES,
     "--out": ["file.txt", "/dev/null/x", "file.txt/x"],
     "--pick": ["4", "8,0", "0,8", "a,b", "-1,0", "1,2,3"],
     "--output": ["x.bmp", "x", "no/such/x.png", "/dev/full", "folder.png"],
@@ -180,7 +180,6 @@ COMBINATIONS = [
     (["profile", "hall", "--ab", ""], "--ab"), (["profile", "hall", "--ab", "--specular foo", ""], "--specular"),
     (["profile", "hall", "--ab", "", "--size 8x8"], "--ab"), (["profile", "hall", "--ab", "", "", "--frames", "5"], "--ab"),
     (["profile", "hall", "--append"], "--append"), (["profile", "hall", "--json", "p", "--csv", "p"], "--csv"),
-    (["profile", "hall", "--json", "p", "--trace", "p"], "--trace"), (["profile", "hall", "--trace", "t", "--frames", "20000"], "--trace"),
     (["profile", "hall", "--json", "noise.json", "--append"], "noise.json"),
     (["truth"], "-o"), (["truth", "-o", "x.exr"], "SCENE"), (["truth", "scene.json", "--cache", "a", "--no-cache", "-o", "x.exr"], "--no-cache"),
     (["truth", "scene.json", "--merge", "a", "-o", "x.exr"], "--merge"), (["truth", "--merge", "no_such.truth", "-o", "x.exr"], "no_such.truth"),
@@ -348,7 +347,7 @@ def unwritable(folder):
 
 def refused_without_permission(folder, options):
     for arguments in (["render", "hall", "-o", "closed/x.png"], ["render", "hall", "-q", "--json", "closed/x.json"],
-                      ["profile", "hall", "--csv", "closed/x.csv"], ["profile", "hall", "--trace", "closed/t"],
+                      ["profile", "hall", "--csv", "closed/x.csv"],
                       ["truth", "scene.json", "-o", "closed/x.exr"], ["stress", "--out", "closed/o"],
                       ["bench", "skip", "--out", "closed"], ["report", "--out", "closed/r"],
                       ["compare", "run.json", "run.json", "--json", "closed/x.json"]):
@@ -372,7 +371,6 @@ WRITERS = [
     (["render", "hall", "--lights", "5", "--size", "8x8", "-q", "--debug", "class", "-o", "{}/x.png"], "x.png", True),
     (["profile", "hall", "--lights", "5", "--size", "8x8", "--frames", "4", "-q", "--json", "{}/x.json"], "x.json", True),
     (["profile", "hall", "--lights", "5", "--size", "8x8", "--frames", "4", "-q", "--csv", "{}/x.csv"], "x.csv", True),
-    (["profile", "hall", "--lights", "5", "--size", "8x8", "--frames", "4", "-q", "--trace", "{}/x.json"], "x.json", True),
     (["stress", "--lights", "5", "--size", "64x64", "--frames", "1", "-q", "--out", "{}"], "hall_5.png", True),
     (["bench", "skip", "--lights", "5", "--size", "16x16", "--rounds", "1", "-q", "--out", "{}"], "bench_skip.json", True),
     (["bench", "stability", "--configs", "1000", "--quadrature", "10", "--sweeps", "1", "-q", "--out", "{}"], "bench_stability.json", True),
@@ -441,8 +439,7 @@ LONG = [
     (["render", "hall", "--lights", "50", "--size", "256x256", "--frames", "4", "-q", "-o", "x.png", "-o", "x.exr",
       "-o", "x.pfm", "-o", "x.hdr", "--json", "x.json"], True),
     (["stress", "--lights", "20,40", "--size", "64x36", "--frames", "2", "-q", "--out", "o"], True),
-    (["profile", "hall", "--lights", "50", "--size", "64x36", "--frames", "20", "-q", "--json", "x.json", "--csv", "x.csv",
-      "--trace", "t.json"], True),
+    (["profile", "hall", "--lights", "50", "--size", "64x36", "--frames", "20", "-q", "--json", "x.json", "--csv", "x.csv"], True),
     (["bench", "skip", "--lights", "50", "--size", "64x36", "--rounds", "1", "-q", "--out", "o"], True),
     (["report", "--parts", "profile", "--lights", "60", "--size", "64x36", "--frames", "2", "-q", "--out", "o"], True),
 ]

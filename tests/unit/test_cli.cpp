@@ -42,11 +42,8 @@ TEST(Cli, ProfileRefusesWhatItCannotCompare)
     refused({"--ab", "", "--frob"}, "--ab \"--frob\"");
     refused({"--ab", ""}, "--ab");
     refused({"--json", "p", "--csv", "p"}, "--csv writes there");
-    refused({"--json", "p", "--trace", "p"}, "--trace writes there");
-    refused({"--frames", "20000", "--trace", "t"}, "--trace holds at most 10000");
     refused({"--warm-up", "-1"}, "--warm-up \"-1\"");
     refused({"--frames-in-flight", "9"}, "--frames-in-flight \"9\"");
-    refused({"--frames-in-flight", "2", "--trace", "t"}, "--trace needs one frame in flight");
     refused({"--append"}, "--append: needs --json");
     refused({"--append", "--json", "p", "--ab", "", ""}, "--append: --ab compares by itself");
 }

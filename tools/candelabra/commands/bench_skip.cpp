@@ -113,7 +113,7 @@ int skip(const ProgramContext& program, const SkipArguments& a)
         differs |= !isSame;
         const Profile profile =
             profileFrames(context, renderer, {.variants = {pair.with, usual}, .rounds = rounds},
-                          nullptr, [&] { progress.advance(1); });
+                          [&] { progress.advance(1); });
         const std::vector<double> with = timesOf(profile.series[0], pair),
                                   without = timesOf(profile.series[1], pair);
         const PairedRatio r = pairedRatio(without, with);

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // candelabra profile: measures the time of every pass of a frame, and whether one way of drawing it
 // is faster than another.
-#include <map>
 #include <memory>
-#include <optional>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -33,7 +31,7 @@ struct ProfileArguments {
     SceneArguments scene;
     FrameArguments frame;
     std::string frames = "60", warmUp = "0", framesInFlight = "1", path = "still";
-    std::string json, csv, trace, lightCosts;
+    std::string json, csv, lightCosts;
     std::vector<std::string> ab;
     bool append = false;
 };
@@ -78,15 +76,11 @@ struct ProfilePlan {
 
 ProfilePlan plan(const ProfileArguments& a)
 {
-    std::map<std::string, const char*> writers;
-    for (const auto& [option, file] :
-         {std::pair{"--csv", &a.csv}, {"--trace", &a.trace}, {"--json", &a.json}}) {
-        if (file->empty())
-            continue;
-        requireWritable(option, *file);
-        if (const auto [other, added] = writers.emplace(*file, option); !added)
-            throw UsageError(fmt::format("{} {}: {} writes there", option, *file, other->second));
-    }
+    for (const auto& [option, file] : {std::pair{"--csv", &a.csv}, {"--json", &a.json}})
+        if (!file->empty())
+            requireWritable(option, *file);
+    if (!a.csv.empty() && a.csv == a.json)
+        throw UsageError(fmt::format("--json {}: --csv writes there", a.json));
     if (a.append) {
         if (a.json.empty() || a.json == "-")
             throw UsageError("--append: needs --json with a file");
@@ -96,15 +90,8 @@ ProfilePlan plan(const ProfileArguments& a)
         withRun(a.json, {}); // throws if the file holds something else than runs
     }
     const uint32_t rounds = unsignedOption("--frames", a.frames, 1, 1'000'000);
-    if (!a.trace.empty() && rounds > maxTracedFrames)
-        throw UsageError(
-            fmt::format("--frames {}: --trace holds at most {}", a.frames, maxTracedFrames));
     const uint32_t inFlight =
         unsignedOption("--frames-in-flight", a.framesInFlight, 1, maxFramesInFlight);
-    if (!a.trace.empty() && inFlight > 1)
-        throw UsageError(fmt::format("--frames-in-flight {}: --trace needs one frame in flight, "
-                                     "because clocks are compared while the GPU is idle",
-                                     inFlight));
     if (!a.lightCosts.empty()) {
         unsignedOption("--light-costs", a.lightCosts, 1, 1'000'000);
         if (!a.ab.empty() || a.frame.cullingMode() != CND_CULLING_CLUSTERED)
@@ -225,20 +212,16 @@ int profile(const ProgramContext& program, const ProfileArguments& a)
                        .specularMethods = methods,
                        .influenceByError = byError,
                        .stamps = true});
-    std::optional<ProfileTrace> trace;
-    if (!a.trace.empty())
-        trace.emplace(p.names);
     Profile result;
     {
         Progress progress(p.settings.rounds + maxWarmUp, !program.quiet);
         progress.doing("profiling");
-        result = profileFrames(context, renderer, p.settings, trace ? &*trace : nullptr,
-                               [&] { progress.advance(1); });
+        result = profileFrames(context, renderer, p.settings, [&] { progress.advance(1); });
     }
     if (!result.settled)
         spdlog::warn("warning: times were not stable after {} of warming up; the machine is busy",
                      counted(result.warmUpRounds, "frame"));
-    const bool toTerminal = a.json != "-" && a.csv != "-" && a.trace != "-";
+    const bool toTerminal = a.json != "-" && a.csv != "-";
     if (toTerminal)
         writeText("-", text(a, result, renderer.triangleCount()));
     Json costs;
@@ -252,8 +235,6 @@ int profile(const ProgramContext& program, const ProfileArguments& a)
     }
     if (!a.csv.empty())
         writeText(a.csv, toCsv(p.names, result.series));
-    if (trace)
-        writeText(a.trace, trace->text(provenance(context.info(), program.commandLine)));
     if (!a.json.empty()) {
         Json run = describe(program, a, p, context, scene, renderer, result);
         if (!costs.is_null())
@@ -293,9 +274,6 @@ void addProfileCommand(CLI::App& app, Run& run)
     addOption(*command, "--light-costs", a->lightCosts, "N",
               "list the N lights that take the most shading time, with the pixels that they cover "
               "and the pairs of light and pixel that are evaluated for them");
-    addOption(*command, "--trace", a->trace, "FILE",
-              "trace file of all measured frames, with CPU and GPU on one time axis, for "
-              "ui.perfetto.dev or chrome://tracing; - is standard output");
     addOption(*command, "--json", a->json, "FILE",
               "JSON file with a summary of all times and their provenance; - is standard output");
     command->add_flag("--append", a->append,
@@ -312,7 +290,6 @@ void addProfileCommand(CLI::App& app, Run& run)
         "  candelabra profile hall --path turn --frames 120 --csv frames.csv\n"
         "  candelabra profile hall --warm-up 2 --frames-in-flight 2 --frames 200\n"
         "  candelabra profile hall --light-costs 20\n"
-        "  candelabra profile hall --frames 20 --trace trace.json\n"
         "  candelabra profile hall --ab '--specular karis' '--specular conic'");
     command->callback(
         [&run, a] { run = [a](const ProgramContext& program) { return profile(program, *a); }; });

@@ -139,7 +139,7 @@ void profilePart(const Part& part)
         progress.doing("profiling");
         profile =
             profileFrames(part.context, renderer, {.variants = {frame}, .rounds = plan.frames},
-                          nullptr, [&] { progress.advance(1); });
+                          [&] { progress.advance(1); });
     }
     const FrameSeries& series = profile.series[0];
     const LightCosts costs = lightCosts(part.context, renderer, scene, frame);

@@ -38,7 +38,7 @@ void FrameStamps::stamp(VkCommandBuffer cmd, uint32_t slot)
                              slot * perSlot_ + taken_[slot]++);
 }
 
-FrameStamps::Times FrameStamps::read(uint32_t slot) const
+std::vector<double> FrameStamps::read(uint32_t slot) const
 {
     if (!count(slot))
         return {};
@@ -48,9 +48,9 @@ FrameStamps::Times FrameStamps::read(uint32_t slot) const
                                 VK_QUERY_RESULT_64_BIT),
           "reading timestamps");
     const double msPerTick = double(device_->limits.timestampPeriod) * 1e-6;
-    Times out{.startMs = double(ticks[0] & mask_) * msPerTick, .endsMs = {}};
+    std::vector<double> out;
     for (size_t i = 1; i < ticks.size(); ++i)
-        out.endsMs.push_back(double((ticks[i] - ticks[0]) & mask_) * msPerTick);
+        out.push_back(double((ticks[i] - ticks[0]) & mask_) * msPerTick);
     return out;
 }
 

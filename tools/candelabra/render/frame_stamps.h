@@ -24,12 +24,9 @@ public:
     void begin(VkCommandBuffer cmd, uint32_t slot);
     void stamp(VkCommandBuffer cmd, uint32_t slot);
 
-    struct Times {
-        double startMs = 0;         // start of the frame on the device's clock
-        std::vector<double> endsMs; // end of each part since the start; empty without timestamps
-    };
-    // The times of the slot's last frame, which the GPU must have finished.
-    Times read(uint32_t slot) const;
+    // Returns when each part of the slot's last frame ended, in ms since the start of the frame.
+    // Empty without timestamps. The GPU must have finished the frame.
+    std::vector<double> read(uint32_t slot) const;
     // The number of timestamps of the slot's last frame.
     uint32_t count(uint32_t slot) const { return slot < taken_.size() ? taken_[slot] : 0; }
 

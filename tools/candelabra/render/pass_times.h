@@ -15,8 +15,7 @@ namespace candelabra::app
 struct PassTime {
     std::string name; // the kernel's file name
     double ms = 0;
-    double startMs = 0; // since the start of the frame; needs RendererOptions::stamps
-    uint32_t runs = 1;  // the pass ran so often; `ms` is the sum, with one timestamp per run
+    uint32_t runs = 1; // the pass ran so often; `ms` is the sum, with one timestamp per run
 };
 
 struct PassSummary {

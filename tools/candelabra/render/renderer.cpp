@@ -51,16 +51,6 @@ void append(std::vector<PassTime>& out, const CndKernelTime* times, uint32_t cou
         out.push_back({passName(times[i].name), times[i].ms});
 }
 
-// Sets when each pass began: the first at `start`, each other one when the pass before it ended. A
-// pass that ran several times is placed at its first run.
-void place(std::span<PassTime> passes, double start)
-{
-    for (PassTime& pass : passes) {
-        pass.startMs = start;
-        start += pass.ms;
-    }
-}
-
 const std::vector<Material>& materialsOf(const Scene& scene, const RendererOptions& options)
 {
     return options.materials ? *options.materials : scene.materials;
@@ -315,7 +305,7 @@ Renderer::Renderer(const VulkanContext& context, const Scene& scene, const Rende
             {.gbufferLayout = options.gbufferLayout, .framesInFlight = options.framesInFlight});
     if (options.stamps)
         s.stamps =
-            FrameStamps(context.device(), context.timestampValidBits(), options.framesInFlight, 3);
+            FrameStamps(context.device(), context.timestampValidBits(), options.framesInFlight, 1);
     if (!options.lightTypes)
         s.setLights(0);
     s.createSized();
@@ -489,11 +479,9 @@ void Renderer::record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& fr
     s.litSlots[slot] = !kept;
     s.stamps.begin(cmd, slot);
     if (kept) {
-        s.stamps.stamp(cmd, slot);
         transition(cmd, radiance, transferRead, computeRead);
     } else {
         s.recordGBuffer(cmd, slot, frame);
-        s.stamps.stamp(cmd, slot);
         CndLightingFrame lighting = s.lightingFrame(slot, frame);
         lighting.surfacesUnchanged = sameSurfaces;
         if (frame.heatMap != HeatMap::None) {
@@ -505,7 +493,6 @@ void Renderer::record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& fr
         s.drawn = lit;
         transition(cmd, radiance, computeWrite, computeRead);
     }
-    s.stamps.stamp(cmd, slot);
     s.recordDisplay(cmd, slot, frame);
 }
 
@@ -630,8 +617,8 @@ std::vector<CndPassPlan> Renderer::State::plan(uint32_t slot, const FrameStats& 
 FrameStats Renderer::stats(uint32_t slot) const
 {
     FrameStats out{.lit = state_->litSlots[slot]};
-    const FrameStamps::Times times = state_->stamps.read(slot);
-    const auto endOf = [&](size_t part) { return times.endsMs.empty() ? 0 : times.endsMs[part]; };
+    const std::vector<double> ends = state_->stamps.read(slot);
+    out.gpuMs = ends.empty() ? 0 : ends.back();
     out.stamps = state_->stamps.count(slot);
     const auto addModule = [&](const CndKernelTime* rows, uint32_t count) {
         append(out.passes, rows, count);
@@ -647,10 +634,8 @@ FrameStats Renderer::stats(uint32_t slot) const
             const CndEnvironmentStats environment = finished(state_->environment.stats(slot));
             addModule(environment.kernelTimes, environment.kernelTimeCount);
         }
-        place(out.passes, 0);
         const size_t first = out.passes.size();
         addModule(out.lighting.kernelTimes, out.lighting.kernelTimeCount);
-        place(std::span(out.passes).subspan(first), endOf(0));
         // Shading passes run once for every type of light in the scene.
         const uint32_t types = uint32_t(std::count_if(std::begin(out.lighting.lightTypeCounts),
                                                       std::end(out.lighting.lightTypeCounts),
@@ -662,7 +647,6 @@ FrameStats Renderer::stats(uint32_t slot) const
             }
     }
     out.exposure = finished(state_->exposure.stats(slot));
-    const size_t first = out.passes.size();
     if (!state_->unbloomed[slot] &&
         state_->bloom->timer().read(slot, rows.data(), count) == CND_SUCCESS)
         addModule(rows.data(), count);
@@ -670,10 +654,7 @@ FrameStats Renderer::stats(uint32_t slot) const
     if (!state_->unfiltered[slot] &&
         state_->edgeFilter->timer().read(slot, rows.data(), count) == CND_SUCCESS)
         addModule(rows.data(), count);
-    place(std::span(out.passes).subspan(first), endOf(1));
     out.plan = state_->plan(slot, out);
-    out.gpuStartMs = times.startMs;
-    out.gpuMs = endOf(2);
     return out;
 }
 

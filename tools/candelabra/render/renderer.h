@@ -97,10 +97,7 @@ uint32_t lightTypesOf(const Scene& scene);
 struct FrameStats {
     std::vector<PassTime> passes;  // in order; empty if the device has no timestamps
     std::vector<CndPassPlan> plan; // passes of all modules, in order
-    // With RendererOptions::stamps: the frame's first timestamp on the device's clock, and the time
-    // from it to the frame's last one.
-    double gpuStartMs = 0;
-    double gpuMs = 0;
+    double gpuMs = 0; // with RendererOptions::stamps: from the frame's first timestamp to its last
     uint32_t stamps = 0; // timestamps taken, including those of the modules
     bool lit = true;     // false: the image was reused (Reuse::Lighting), and `lighting` is empty
     CndLightingStats lighting{};

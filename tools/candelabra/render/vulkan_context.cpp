@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/vulkan_context.h"
 
-#include <algorithm>
-#include <cstring>
 #include <malloc.h>
 #include <vector>
 
@@ -42,43 +40,6 @@ uint32_t findQueueFamily(const VulkanInstance& instance, const DeviceInfo& devic
                         ? " has no queue for graphics and compute"
                         : " has no queue for graphics and compute that can present to this "
                           "display"));
-}
-
-// The same two functions under two extensions. The second extension is not in the headers of Vulkan
-// 1.3.239, and the validation layer of that version warns of it, so the first is preferred.
-struct CalibratedTimestamps {
-    const char *extension, *get, *domains;
-};
-constexpr CalibratedTimestamps calibratedTimestamps[] = {
-    {VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME, "vkGetCalibratedTimestampsEXT",
-     "vkGetPhysicalDeviceCalibrateableTimeDomainsEXT"},
-    {"VK_KHR_calibrated_timestamps", "vkGetCalibratedTimestampsKHR",
-     "vkGetPhysicalDeviceCalibrateableTimeDomainsKHR"}};
-
-// Returns the extension of the device that knows CLOCK_MONOTONIC, or null if it has none.
-const CalibratedTimestamps* findCalibratedTimestamps(VkInstance instance, VkPhysicalDevice device)
-{
-    uint32_t count = 0;
-    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
-    std::vector<VkExtensionProperties> extensions(count);
-    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
-    for (const CalibratedTimestamps& c : calibratedTimestamps) {
-        if (std::none_of(extensions.begin(), extensions.end(), [&](const auto& e) {
-                return std::strcmp(e.extensionName, c.extension) == 0;
-            }))
-            continue;
-        const auto get = reinterpret_cast<PFN_vkGetPhysicalDeviceCalibrateableTimeDomainsEXT>(
-            vkGetInstanceProcAddr(instance, c.domains));
-        if (!get)
-            continue;
-        get(device, &count, nullptr);
-        std::vector<VkTimeDomainEXT> domains(count);
-        get(device, &count, domains.data());
-        if (std::count(domains.begin(), domains.end(), VK_TIME_DOMAIN_DEVICE_EXT) &&
-            std::count(domains.begin(), domains.end(), VK_TIME_DOMAIN_CLOCK_MONOTONIC_EXT))
-            return &c;
-    }
-    return nullptr;
 }
 
 // A driver that draws on the CPU allocates many megabytes for every pass that draws triangles, and
@@ -172,9 +133,6 @@ void VulkanContext::createDevice()
     std::vector<const char*> extensions;
     if (instance_.presentation() == Presentation::Window)
         extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
-    const CalibratedTimestamps* clocks = findCalibratedTimestamps(instance_.get(), info_.handle);
-    if (clocks)
-        extensions.push_back(clocks->extension);
     const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                   .pNext = &features,
                                   .queueCreateInfoCount = 1,
@@ -183,11 +141,6 @@ void VulkanContext::createDevice()
                                   .ppEnabledExtensionNames = extensions.data()};
     check(vkCreateDevice(info_.handle, &info, nullptr, &device_),
           "creating a device on " + info_.name);
-    if (clocks) {
-        calibratedTimestamps_ = clocks->extension;
-        getCalibratedTimestamps_ = reinterpret_cast<PFN_vkGetCalibratedTimestampsEXT>(
-            vkGetDeviceProcAddr(device_, clocks->get));
-    }
 }
 
 void VulkanContext::submit(const VkSubmitInfo2& info, VkFence fence, const std::string& what) const

@@ -43,13 +43,6 @@ public:
     uint32_t queueFamily() const { return queueFamily_; }
     uint32_t timestampValidBits() const { return timestampValidBits_; } // of the queue
     bool samplerAnisotropy() const { return samplerAnisotropy_; }
-    // The function that reads the device's timestamps and CLOCK_MONOTONIC at the same time, and the
-    // extension that it belongs to. Both are null if the device cannot do that.
-    PFN_vkGetCalibratedTimestampsEXT getCalibratedTimestamps() const
-    {
-        return getCalibratedTimestamps_;
-    }
-    const char* calibratedTimestampsExtension() const { return calibratedTimestamps_; }
 
     // These functions use the queue. Several threads may call them at the same time.
     //
@@ -76,8 +69,6 @@ private:
     mutable std::mutex queueMutex_; // Vulkan lets one thread at a time use a queue
     uint32_t queueFamily_ = 0, timestampValidBits_ = 0;
     bool samplerAnisotropy_ = false;
-    const char* calibratedTimestamps_ = nullptr;
-    PFN_vkGetCalibratedTimestampsEXT getCalibratedTimestamps_ = nullptr;
     CndDeviceDesc desc_{};
     std::unique_ptr<gpu::Device> gpu_;
 };

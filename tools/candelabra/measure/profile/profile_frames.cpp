@@ -12,6 +12,7 @@
 #include "measure/frame/frames.h"
 #include "render/camera_path.h"
 #include "render/frame_ring.h"
+#include "render/frame_stamps.h"
 #include "render/readback.h"
 
 namespace candelabra::app
@@ -19,6 +20,31 @@ namespace candelabra::app
 
 namespace
 {
+
+constexpr uint32_t stampsInARow = 100;
+
+// Returns the time that a timestamp adds to a frame: the median of several measurements of
+// timestamps in a row. 0 if the device has no timestamps. The GPU must be idle.
+double stampCost(const VulkanContext& context)
+{
+    FrameStamps stamps(context.device(), context.timestampValidBits(), 1, stampsInARow);
+    std::vector<double> each;
+    for (int round = 0; round < 9; ++round) {
+        context.submitAndWait([&](VkCommandBuffer cmd) {
+            stamps.begin(cmd, 0);
+            for (uint32_t i = 0; i < stampsInARow; ++i)
+                stamps.stamp(cmd, 0);
+        });
+        const std::vector<double> ends = stamps.read(0);
+        each.push_back(ends.empty() ? 0 : ends.back() / stampsInARow);
+    }
+    return medianOf(each);
+}
+
+double msBetween(CpuClock::time_point from, CpuClock::time_point to)
+{
+    return std::chrono::duration<double, std::milli>(to - from).count();
+}
 
 // Returns true if the last warmUpWindow values have about the same median as the warmUpWindow
 // before.
@@ -114,7 +140,6 @@ public:
         renderer_.record(cmd, slot, options);
         frame.cpu.recorded = CpuClock::now();
         ring_.submit();
-        frame.cpu.submitted = CpuClock::now();
         next_ = (slot + 1) % ring_.slots();
         if (ring_.slots() == 1)
             finishAll();
@@ -154,16 +179,14 @@ private:
 } // namespace
 
 Profile profileFrames(const VulkanContext& context, Renderer& renderer,
-                      const ProfileSettings& settings, ProfileTrace* trace,
-                      const std::function<void()>& onRound)
+                      const ProfileSettings& settings, const std::function<void()>& onRound)
 {
-    GpuClock clock(context);
     RingOfFrames frames(context, renderer, settings);
     Profile out{.series = std::vector<FrameSeries>(settings.variants.size()),
-                .stampMs = clock.stampMs()};
+                .stampMs = stampCost(context)};
     out.last.resize(settings.variants.size());
     double time = settings.variants[0].time;
-    const auto round = [&](uint32_t i, std::vector<FrameSeries>& into, ProfileTrace* traced) {
+    const auto round = [&](uint32_t i, std::vector<FrameSeries>& into) {
         for (size_t k = 0; k < settings.variants.size(); ++k) {
             // The order alternates, so that whatever grows during a round affects all variants
             // alike.
@@ -171,14 +194,10 @@ Profile profileFrames(const VulkanContext& context, Renderer& renderer,
             FrameOptions options = settings.variants[v];
             options.camera = cameraAt(options.camera, settings.path, i, settings.rounds);
             options.time = time;
-            frames.draw(options, [&, v, traced](const CpuSpans& cpu, const FrameStats& stats,
-                                                CpuClock::time_point previousDone) {
+            frames.draw(options, [&, v](const CpuSpans& cpu, const FrameStats& stats,
+                                        CpuClock::time_point previousDone) {
                 into[v].add(stats, cpu, previousDone, out.stampMs);
                 out.last[v] = stats;
-                if (traced) {
-                    clock.calibrate();
-                    traced->add(v, cpu, stats, clock);
-                }
             });
         }
         if (settings.moving)
@@ -191,7 +210,7 @@ Profile profileFrames(const VulkanContext& context, Renderer& renderer,
                msBetween(start, CpuClock::now()) >= 1000 * settings.warmUpSeconds;
     };
     while (!enough()) {
-        round(out.warmUpRounds++, warmUp, nullptr);
+        round(out.warmUpRounds++, warmUp);
         if (out.warmUpRounds <= maxWarmUp)
             onRound();
         out.settled = std::all_of(warmUp.begin(), warmUp.end(),
@@ -200,7 +219,7 @@ Profile profileFrames(const VulkanContext& context, Renderer& renderer,
     frames.finishAll();
     time = settings.variants[0].time;
     for (uint32_t i = 0; i < settings.rounds; ++i) {
-        round(i, out.series, trace);
+        round(i, out.series);
         onRound();
     }
     frames.finishAll();

@@ -2,18 +2,24 @@
 // Draws frames of a scene one after another and measures the time of each of their passes.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "io/report.h"
 #include "io/table.h"
-#include "measure/profile/gpu_clock.h"
-#include "measure/profile/profile_trace.h"
 #include "render/renderer.h"
 
 namespace candelabra::app
 {
+
+using CpuClock = std::chrono::steady_clock;
+
+// When the CPU started a frame and when it finished each step, in order.
+struct CpuSpans {
+    CpuClock::time_point start{}, uploaded{}, recorded{}, done{};
+};
 
 // The times of one variant of the frame, with a value per frame in every series. The time that the
 // timestamps themselves take on the GPU is subtracted from the times of the GPU (passes, gpuMs,
@@ -100,11 +106,9 @@ ProfilingOverhead overheadOf(const FrameSeries& series, double stampMs);
 Camera cameraAt(const Camera& camera, ProfilePath path, uint32_t i, uint32_t rounds);
 
 // Draws all rounds. `onRound` is called after each round, except for warm-up rounds beyond
-// maxWarmUp. Measured frames are added to `trace` if it is not null, which needs one frame in
-// flight.
+// maxWarmUp.
 Profile profileFrames(const VulkanContext& context, Renderer& renderer,
-                      const ProfileSettings& settings, ProfileTrace* trace,
-                      const std::function<void()>& onRound);
+                      const ProfileSettings& settings, const std::function<void()>& onRound);
 
 // Text for people: the times of each pass; what the timestamps cost; and for two variants the ratio
 // of the second's times to the first's.
