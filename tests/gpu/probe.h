@@ -3,6 +3,13 @@
 // inputs.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <glm/vec3.hpp>
+
 #include "gpu/kernel.h"
 #include "harness/gpu_fixture.h"
 #include "shared/probes.h"
@@ -13,6 +20,18 @@ namespace candelabra::test
 class ProbeTest : public GpuTest
 {
 protected:
+    double uniform(double low, double high)
+    {
+        return low + (high - low) * double(random_()) / 4294967296.0;
+    }
+    // Returns a unit vector in a random direction around the z axis.
+    glm::dvec3 direction(double cosine)
+    {
+        const double azimuth = uniform(0, 2 * std::numbers::pi);
+        const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+        return {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine};
+    }
+
     // Returns one output per input. The probe binds PROBE_INPUT and PROBE_OUTPUT, and takes
     // ProbeParams.
     template <typename Output, typename Input>
@@ -37,6 +56,8 @@ protected:
         const auto values = out.as<Output>();
         return {values.begin(), values.begin() + long(count)};
     }
+
+    std::mt19937 random_;
 };
 
 } // namespace candelabra::test

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <random>
 #include <thread>
 
 #include "candelabra_probes.h"
@@ -39,24 +38,15 @@ std::ostream& operator<<(std::ostream& out, const Percentiles& p)
 class AreaLights : public ProbeTest
 {
 protected:
+    AreaLights() { random_.seed(2016); }
     std::vector<gpu::AreaProbeOutput> evaluate(const std::vector<gpu::AreaProbeInput>& inputs)
     {
         return runProbe<gpu::AreaProbeOutput>(spirv::area_lights_comp_conic, inputs);
     }
 
-    double uniform(double low, double high)
-    {
-        return low + (high - low) * double(random_()) / 4294967296.0;
-    }
     double logUniform(double low, double high)
     {
         return std::exp(uniform(std::log(low), std::log(high)));
-    }
-    glm::dvec3 direction(double cosine)
-    {
-        const double azimuth = uniform(0, 2 * pi);
-        const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
-        return {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine};
     }
 
     // Places a light at distance 1 in direction l and turns it with it; `u` and `w` are its axes
@@ -170,8 +160,6 @@ protected:
         part(0, 2);
         return expected;
     }
-
-    std::mt19937 random_{2016};
 };
 
 } // namespace

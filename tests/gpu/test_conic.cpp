@@ -3,8 +3,6 @@
 // double precision (tools/formula).
 #include <cmath>
 #include <map>
-#include <numbers>
-#include <random>
 #include <sstream>
 
 #include "formula/formula.h"
@@ -19,16 +17,7 @@ namespace
 class Conic : public ConicProbeTest
 {
 protected:
-    double uniform(double low, double high)
-    {
-        return low + (high - low) * double(random_()) / 4294967296.0;
-    }
-    glm::dvec3 direction(double cosine)
-    {
-        const double azimuth = uniform(0, 2 * std::numbers::pi);
-        const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
-        return {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine};
-    }
+    Conic() { random_.seed(54321); }
 
     // Places half of the lights near the mirror direction and half near the horizon.
     gpu::ConicProbeInput randomInput(double minNoV)
@@ -48,9 +37,6 @@ protected:
                 .radius = float(s * distance),
                 .alpha = float(alpha)};
     }
-
-private:
-    std::mt19937 random_{54321};
 };
 
 formula::Response inDouble(const gpu::ConicProbeInput& in,

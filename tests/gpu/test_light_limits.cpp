@@ -3,7 +3,6 @@
 // reciprocity, no light from below the horizon, a sun as far away as the Sun.
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "gpu/conic_probe.h"
 #include "gpu/lighting_harness.h"
@@ -20,19 +19,7 @@ namespace
 class LightLimits : public ConicProbeTest
 {
 protected:
-    double uniform(double low, double high)
-    {
-        return low + (high - low) * double(random_()) / 4294967296.0;
-    }
-    glm::dvec3 direction(double cosine)
-    {
-        const double azimuth = uniform(0, 2 * std::numbers::pi);
-        const double sine = std::sqrt(1 - cosine * cosine);
-        return {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine};
-    }
-
-private:
-    std::mt19937 random_{77};
+    LightLimits() { random_.seed(77); }
 };
 
 } // namespace

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the shipping float32 shader functions of sphere lights against double precision.
 #include <cmath>
-#include <numbers>
-#include <random>
 
 #include "candelabra_probes.h"
 #include "gpu/probe.h"
@@ -16,24 +14,11 @@ namespace
 class SphereLight : public ProbeTest
 {
 protected:
+    SphereLight() { random_.seed(12345); }
     std::vector<gpu::SphereProbeOutput> evaluate(const std::vector<gpu::SphereProbeInput>& inputs)
     {
         return runProbe<gpu::SphereProbeOutput>(spirv::sphere_light_comp, inputs);
     }
-
-    double uniform(double low, double high)
-    {
-        return low + (high - low) * double(random_()) / 4294967296.0;
-    }
-    glm::dvec3 direction(double cosine)
-    {
-        const double azimuth = uniform(0, 2 * std::numbers::pi);
-        const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
-        return {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine};
-    }
-
-private:
-    std::mt19937 random_{12345};
 };
 
 reference::SurfacePoint surfaceOf(const gpu::SphereProbeInput& in)

@@ -86,24 +86,13 @@ StreetPlace nearestStreet(Random& random, const glm::dvec2& p)
     return place;
 }
 
-float sideOf(Random& random)
-{
-    return random.chance(0.5f) ? 1.0f : -1.0f;
-}
-
-float skewed(Random& random, float low, float high)
-{
-    const float share = random.uniform();
-    return low + (high - low) * share * share;
-}
-
 using Buildings = std::vector<std::vector<Building>>;
 
 LightSite onLamp(Random& random, const glm::dvec2& p, const Buildings&)
 {
     LightSite site;
     StreetPlace place = nearestStreet(random, p);
-    const float side = sideOf(random);
+    const float side = random.side();
     const double jitter = random.bell();
     place.along = lampSpacing * (std::floor(place.along / lampSpacing) + 0.5);
     place.along += 0.15 * jitter;
@@ -120,7 +109,7 @@ LightSite onCar(Random& random, const glm::dvec2& p, const Buildings&)
 {
     LightSite site;
     const StreetPlace place = nearestStreet(random, p);
-    const float side = sideOf(random);
+    const float side = random.side();
     const double lane = random.uniform(1.5f, 4.5f);
     site.radius = random.uniform(0.10f, 0.18f);
     site.position = place.at(side * lane, 0.75);
@@ -135,8 +124,8 @@ LightSite onFront(Random& random, const glm::dvec2& p, const Buildings&)
 {
     LightSite site;
     const StreetPlace place = nearestStreet(random, p);
-    const float side = sideOf(random), up = random.uniform();
-    site.radius = skewed(random, 0.15f, 0.9f);
+    const float side = random.side(), up = random.uniform();
+    site.radius = random.skewed(0.15f, 0.9f);
     site.position = place.at(side * (0.5 * streetWidth + pavementWidth - 0.6 - site.radius),
                              2.6 + site.radius + 9 * up * up);
     const float hue = random.uniform();
@@ -159,7 +148,7 @@ LightSite onRoof(Random& random, const glm::dvec2& p, const Buildings& buildings
     }
     const Building& building = choice[random.below(static_cast<uint32_t>(choice.size()))];
     const glm::dvec2 offset = 0.8 * (2.0 * glm::dvec2(random.uniform2()) - 1.0);
-    site.radius = skewed(random, 0.3f, building.height > 60 ? 3.0f : 1.2f);
+    site.radius = random.skewed(0.3f, building.height > 60 ? 3.0f : 1.2f);
     site.position =
         building.base + glm::dvec3(offset.x * building.halfX, building.height + 1 + site.radius,
                                    offset.y * building.halfZ);
@@ -187,7 +176,7 @@ LightSite onLandmark(Random& random, const glm::dvec2&, const Buildings&)
 {
     LightSite site;
     const bool wheel = random.chance(0.5f);
-    const float t = random.uniform(), side = sideOf(random), vary = random.uniform();
+    const float t = random.uniform(), side = random.side(), vary = random.uniform();
     site.radius = random.uniform(0.12f, 0.3f);
     if (wheel) {
         const double angle = 2 * pi * t;
@@ -206,25 +195,8 @@ LightSite onLandmark(Random& random, const glm::dvec2&, const Buildings&)
 
 using MakeSite = LightSite (*)(Random&, const glm::dvec2&, const Buildings&);
 
-struct Kind {
-    float share;
-    MakeSite make;
-};
-
-// The shares add up to 1.
-constexpr Kind kinds[] = {{0.44f, onLamp}, {0.14f, onCar},   {0.22f, onFront},
-                          {0.10f, onRoof}, {0.07f, lantern}, {0.03f, onLandmark}};
-
-MakeSite anyKind(Random& random)
-{
-    float at = random.uniform();
-    for (const Kind& kind : kinds) {
-        if (at < kind.share)
-            return kind.make;
-        at -= kind.share;
-    }
-    return kinds[0].make;
-}
+constexpr Share<MakeSite> kinds[] = {{0.44f, onLamp}, {0.14f, onCar},   {0.22f, onFront},
+                                     {0.10f, onRoof}, {0.07f, lantern}, {0.03f, onLandmark}};
 
 } // namespace
 
@@ -237,7 +209,7 @@ std::vector<LightSite> lightSites(const Kit& kit, uint32_t count, const SceneOpt
     sites.reserve(count);
     for (uint32_t i = 0; i < count; ++i) {
         const glm::dvec2 place = drawPlace(random);
-        const MakeSite make = anyKind(random);
+        const MakeSite make = random.oneOf(kinds);
         LightSite site = make(random, place, kit.buildings);
         const bool overWater = isRiver(site.position.z) && make != onLandmark && make != lantern;
         if (overWater)
@@ -247,7 +219,7 @@ std::vector<LightSite> lightSites(const Kit& kit, uint32_t count, const SceneOpt
             static_cast<float>(std::sqrt(farDensity / density({site.position.x, site.position.z})));
         site.reach *= random.uniform(0.7f, 1.45f);
         if (options.moving) {
-            const float radius = skewed(motionRandom, 0.5f, 8);
+            const float radius = motionRandom.skewed(0.5f, 8);
             const float speed = motionRandom.uniform(1, 8);
             site.motion = circleMotion(motionRandom, site.position.y, site.radius, radius, speed);
         }

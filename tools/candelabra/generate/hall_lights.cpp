@@ -15,18 +15,6 @@ using std::numbers::pi;
 // Positions are drawn again when they fall into stone, at most this often.
 constexpr int maxTries = 16;
 
-float sideOf(Random& random)
-{
-    return random.chance(0.5f) ? 1.0f : -1.0f;
-}
-
-// Small ones are frequent.
-float skewed(Random& random, float low, float high)
-{
-    const float share = random.uniform();
-    return low + (high - low) * share * share;
-}
-
 // Is a ball around `p` free of columns, walls, arcades and vault?
 bool isFree(const glm::dvec3& p, double radius)
 {
@@ -78,7 +66,7 @@ LightSite onChandelier(Random& random)
     site.position = glm::dvec3(chandelierX(chandelier), chandelierY + 0.25, 0) +
                     chandelierRadius * glm::dvec3(std::cos(angle), 0, std::sin(angle)) +
                     glm::dvec3(0.3, 0.25, 0.3) * jitter;
-    site.radius = skewed(random, 0.03f, 0.08f);
+    site.radius = random.skewed(0.03f, 0.08f);
     site.colour = blackbodyColour(random.uniform(1900, 2700));
     site.reach = 1.5f;
     setGlow(site, 280);
@@ -95,7 +83,7 @@ LightSite onCable(Random& random)
     site.position = {columnX(static_cast<int>(column)) + 0.15 * along,
                      hanging(cableY, cableSag, t) - 0.08 - 0.25 * drop,
                      (2 * t - 1) * (naveHalf - 0.6)};
-    site.radius = skewed(random, 0.04f, 0.15f);
+    site.radius = random.skewed(0.04f, 0.15f);
     site.colour = glassColour(random, static_cast<int>(column));
     setGlow(site, 280);
     return site;
@@ -105,10 +93,10 @@ LightSite onGarland(Random& random)
 {
     LightSite site;
     const int bay = static_cast<int>(random.below(bays));
-    const float side = sideOf(random), t = random.uniform(), drop = random.uniform();
+    const float side = random.side(), t = random.uniform(), drop = random.uniform();
     site.position = {columnX(bay) + 0.3 + t * (bayWidth - 0.6),
                      hanging(garlandY, garlandSag, t) - 0.06 - 0.15 * drop, side * naveHalf};
-    site.radius = skewed(random, 0.03f, 0.09f);
+    site.radius = random.skewed(0.03f, 0.09f);
     site.colour = blackbodyColour(random.uniform(2300, 3600));
     setGlow(site, 280);
     return site;
@@ -119,12 +107,12 @@ LightSite aroundColumn(Random& random)
 {
     LightSite site;
     const int column = static_cast<int>(random.below(bays + 1));
-    const float side = sideOf(random), t = random.uniform(), out = random.uniform();
+    const float side = random.side(), t = random.uniform(), out = random.uniform();
     const double angle = 2 * pi * 4 * t + column;
     const double distance = columnRadius + 0.12 + 0.25 * out * out;
     site.position = {columnX(column) + distance * std::cos(angle), 0.75 + 4.1 * t,
                      side * naveHalf + distance * std::sin(angle)};
-    site.radius = skewed(random, 0.03f, 0.09f);
+    site.radius = random.skewed(0.03f, 0.09f);
     site.colour = glassColour(random, column);
     setGlow(site, 320);
     return site;
@@ -135,7 +123,7 @@ LightSite onFloor(Random& random)
 {
     LightSite site;
     const int bay = static_cast<int>(random.below(bays));
-    const float side = sideOf(random), across = random.bell(), along = random.uniform();
+    const float side = random.side(), across = random.bell(), along = random.uniform();
     const float size = random.uniform();
     site.radius = 0.07f + 0.25f * size * size;
     const float lift = random.uniform();
@@ -151,8 +139,8 @@ LightSite onWall(Random& random)
 {
     LightSite site;
     const int column = static_cast<int>(random.below(bays + 1));
-    const float side = sideOf(random), up = random.uniform(), along = random.bell();
-    site.radius = skewed(random, 0.06f, 0.20f);
+    const float side = random.side(), up = random.uniform(), along = random.bell();
+    site.radius = random.skewed(0.06f, 0.20f);
     site.position = {columnX(column) + 1.4 * along, 2.2 + 4.5 * up,
                      side * (halfWidth - 0.75 - site.radius)};
     const bool teal = random.chance(0.4f);
@@ -166,8 +154,8 @@ LightSite onWall(Random& random)
 LightSite onGallery(Random& random)
 {
     LightSite site;
-    const float along = random.uniform(-1, 1), side = sideOf(random), up = random.uniform();
-    site.radius = skewed(random, 0.04f, 0.12f);
+    const float along = random.uniform(-1, 1), side = random.side(), up = random.uniform();
+    site.radius = random.skewed(0.04f, 0.12f);
     site.position = {along * (halfLength - 0.5), gallery + 0.95 + 0.5 * up,
                      side * (naveHalf - 0.55)};
     site.colour = blackbodyColour(random.uniform(4000, 9000));
@@ -184,7 +172,7 @@ LightSite underVault(Random& random)
     const double distance = vaultRadius - 0.75;
     site.position = {columnX(rib) + 0.8 * along, vaultSpringing + distance * std::sin(angle),
                      distance * std::cos(angle)};
-    site.radius = skewed(random, 0.05f, 0.16f);
+    site.radius = random.skewed(0.05f, 0.16f);
     const float hue = random.uniform(0.58f, 0.86f);
     site.colour = hueColour(hue, random.uniform(0.4f, 0.7f));
     setGlow(site, 320);
@@ -197,7 +185,7 @@ LightSite floating(Random& random)
     LightSite site;
     const float along = random.uniform(-1, 1), across = random.bell(), up = random.uniform();
     const bool aisle = random.chance(0.35f);
-    const float side = sideOf(random);
+    const float side = random.side();
     site.radius = random.uniform(0.08f, 0.22f);
     site.position =
         aisle ? glm::dvec3(along * (halfLength - 2), 2.5 + 4.5 * up, side * (9 + 1.5 * across))
@@ -241,7 +229,7 @@ LightSite onShrine(Random& random)
 {
     LightSite site;
     const float along = random.uniform(), across = random.bell(), up = random.uniform();
-    site.radius = skewed(random, 0.03f, 0.12f);
+    site.radius = random.skewed(0.03f, 0.12f);
     site.position = {22.5 + 6.5 * along, 1.2 + 5 * up, 4.5 * across};
     site.colour = blackbodyColour(random.uniform(1900, 3200));
     setGlow(site, 280);
@@ -250,27 +238,10 @@ LightSite onShrine(Random& random)
 
 using MakeSite = LightSite (*)(Random&);
 
-struct Kind {
-    float share;
-    MakeSite make;
-};
-
-// Shares add up to 1.
-constexpr Kind kinds[] = {{0.13f, onChandelier}, {0.17f, onCable},    {0.10f, onGarland},
-                          {0.12f, aroundColumn}, {0.14f, onFloor},    {0.10f, onWall},
-                          {0.05f, onGallery},    {0.05f, underVault}, {0.03f, floating},
-                          {0.06f, firefly},      {0.04f, inPavement}, {0.01f, onShrine}};
-
-MakeSite anyKind(Random& random)
-{
-    float at = random.uniform();
-    for (const Kind& kind : kinds) {
-        if (at < kind.share)
-            return kind.make;
-        at -= kind.share;
-    }
-    return kinds[0].make;
-}
+constexpr Share<MakeSite> kinds[] = {{0.13f, onChandelier}, {0.17f, onCable},    {0.10f, onGarland},
+                                     {0.12f, aroundColumn}, {0.14f, onFloor},    {0.10f, onWall},
+                                     {0.05f, onGallery},    {0.05f, underVault}, {0.03f, floating},
+                                     {0.06f, firefly},      {0.04f, inPavement}, {0.01f, onShrine}};
 
 } // namespace
 
@@ -283,7 +254,7 @@ std::vector<LightSite> lightSites(uint32_t count, const SceneOptions& options)
     sites.resize(std::min<size_t>(sites.size(), count));
     sites.reserve(count);
     while (sites.size() < count) {
-        const MakeSite make = anyKind(random);
+        const MakeSite make = random.oneOf(kinds);
         LightSite site = make(random);
         for (int attempt = 1; attempt < maxTries && !isFree(site.position, site.radius);
              ++attempt) {
@@ -291,7 +262,7 @@ std::vector<LightSite> lightSites(uint32_t count, const SceneOptions& options)
         }
         site.reach *= random.uniform(0.7f, 1.45f);
         if (options.moving) {
-            const float radius = 0.2f + skewed(motionRandom, 0.0f, 1.8f);
+            const float radius = 0.2f + motionRandom.skewed(0.0f, 1.8f);
             const float speed = motionRandom.uniform(0.3f, 1.5f);
             site.motion = circleMotion(motionRandom, site.position.y, site.radius, radius, speed);
         }

@@ -3,12 +3,19 @@
 // of the distributions of the standard library.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include <glm/glm.hpp>
 
 namespace candelabra::app
 {
+
+template <typename T>
+struct Share {
+    float share; // all shares of a list add up to 1
+    T value;
+};
 
 // PCG32 (O'Neill 2014, "PCG: A Family of Simple Fast Space-Efficient Statistically Good Algorithms
 // for Random Number Generation", pcg32_random_r). Do not call it twice in one expression, unless it
@@ -45,6 +52,28 @@ public:
     }
 
     bool chance(float probability) { return uniform() < probability; }
+
+    float side() { return chance(0.5f) ? 1.0f : -1.0f; }
+
+    // From `low` to `high`; small values are frequent.
+    float skewed(float low, float high)
+    {
+        const float share = uniform();
+        return low + (high - low) * share * share;
+    }
+
+    // Returns one of the values, each with the probability of its share.
+    template <typename T, size_t N>
+    T oneOf(const Share<T> (&choices)[N])
+    {
+        float at = uniform();
+        for (const Share<T>& choice : choices) {
+            if (at < choice.share)
+                return choice.value;
+            at -= choice.share;
+        }
+        return choices[0].value; // sums of shares are rounded
+    }
 
     // Roughly normal with mean 0 and standard deviation 1/3, within (-1, 1): the mean of three
     // uniform numbers.
