@@ -119,7 +119,7 @@ BAD = {
     "--out": ["file.txt", "/dev/null/x", "file.txt/x"],
     "--pick": ["4", "8,0", "0,8", "a,b", "-1,0", "1,2,3"],
     "--output": ["x.bmp", "x", "no/such/x.png", "/dev/full", "folder.png"],
-    "--path": [*NAMES, "file.txt", "empty.json", "folder.json"], "--check": NAMES, "--light-costs": COUNTS, "--rounds": [*COUNTS, "0"],
+    "--path": NAMES, "--check": NAMES, "--light-costs": COUNTS, "--rounds": [*COUNTS, "0"],
     "--brute-limit": [*NUMBERS, "-1"], "--groups": [*COUNTS, "0"],
     "--configs": [*NUMBERS, "-1", "0.5"], "--quadrature": [*NUMBERS, "-1"],
     "--sweeps": [*COUNTS], "--parts": ["everything", "profile,,culling", ","],

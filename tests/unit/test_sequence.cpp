@@ -1,38 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests what sequences of pictures are made of: places of samples in a pixel, numbered names, and
 // paths of the camera.
-#include <numbers>
 #include <set>
-#include <string>
 
 #include <gtest/gtest.h>
 
-#include "harness/temporary_folder.h"
 #include "io/error.h"
 #include "io/numbered_name.h"
 #include "render/accumulation.h"
 #include "render/camera.h"
 #include "render/camera_path.h"
-#include "scene/scene_error.h"
 
 using namespace candelabra::app;
-
-namespace
-{
-
-class SequenceTest : public testing::Test, protected candelabra::test::TemporaryFolder
-{
-protected:
-};
-
-Scene sceneWithCamera()
-{
-    Scene scene;
-    scene.cameras.push_back({.name = "front", .position = {0, 0, 10}});
-    return scene;
-}
-
-} // namespace
 
 TEST(FrameSamples, FillThePixelEvenly)
 {
@@ -102,42 +81,11 @@ TEST(NumberedName, HasOnePlace)
     EXPECT_THROW(numberedName("-o", "%d-%d.png", 0), UsageError);
 }
 
-TEST_F(SequenceTest, CamerasMoveThroughTheLinesOfAFile)
+TEST(CameraPath, TurnsOnceAroundTheVertical)
 {
-    const Scene scene = sceneWithCamera();
-    const std::string file = write("path.txt", "# from the front to the side\n\nfront\n"
-                                               "5, 1, 5, 0, 0, 0, 30\n10,0,0,0,0,0,60\n");
-    const CameraPath path(scene, {}, file);
-    EXPECT_TRUE(path.moves());
-    EXPECT_EQ(path.at(0, 5), scene.cameras[0]);
-    EXPECT_EQ(path.at(2, 5).position, glm::dvec3(5, 1, 5));
-    EXPECT_EQ(path.at(4, 5).position, glm::dvec3(10, 0, 0));
-    const Camera between = path.at(3, 5); // half way from the second to the third
-    EXPECT_NEAR(between.verticalFov, std::numbers::pi / 4, 1e-12);
-    EXPECT_NEAR(glm::length(between.forward), 1, 1e-12);
-    EXPECT_NEAR(between.position.x, 0.5 * (5 + 10) + (5 - 0) / 16.0, 1e-12); // Catmull-Rom
-    EXPECT_EQ(path.at(0, 1), scene.cameras[0]);
-
-    const CameraPath still(scene, scene.cameras[0], "still"), turn(scene, scene.cameras[0], "turn");
-    EXPECT_FALSE(still.moves());
-    EXPECT_EQ(still.at(3, 5), scene.cameras[0]);
-    EXPECT_EQ(turn.at(0, 4).position, scene.cameras[0].position);
-    EXPECT_NEAR(glm::distance(turn.at(1, 4).forward, glm::dvec3(-1, 0, 0)), 0, 1e-12);
-}
-
-TEST_F(SequenceTest, FaultyPathsAreRefusedWithTheirLine)
-{
-    const auto refusal = [&](const std::string& text) -> std::string {
-        try {
-            CameraPath(sceneWithCamera(), {}, write("path.txt", text));
-        } catch (const UsageError& error) {
-            return error.what();
-        }
-        return "";
-    };
-    EXPECT_NE(refusal("front\n").find("two cameras or more"), std::string::npos);
-    EXPECT_NE(refusal("front\nback\n").find("path.txt: line 2: "), std::string::npos);
-    EXPECT_NE(refusal("0,0,0,0,0,1\n1,0,0,1,0,-1\n").find("line 2: looks the opposite way"),
-              std::string::npos);
-    EXPECT_THROW(CameraPath(sceneWithCamera(), {}, path("none.txt")), SceneError);
+    const Camera first{.position = {0, 0, 10}};
+    EXPECT_EQ(cameraAt(first, CameraPath::Still, 3, 5), first);
+    const Camera turned = cameraAt(first, CameraPath::Turn, 1, 4);
+    EXPECT_EQ(turned.position, first.position);
+    EXPECT_NEAR(glm::distance(turned.forward, glm::dvec3(-1, 0, 0)), 0, 1e-12);
 }

@@ -36,9 +36,6 @@ struct ProfileArguments {
     bool append = false;
 };
 
-constexpr Choice<ProfilePath> pathChoices[] = {{"still", ProfilePath::Still},
-                                               {"turn", ProfilePath::Turn}};
-
 // Returns the frame's options after those in `text` have replaced options of the command line.
 FrameOptions variant(const FrameArguments& base, const std::string& text)
 {
@@ -106,7 +103,7 @@ ProfilePlan plan(const ProfileArguments& a)
     ProfilePlan p{
         .scene = a.scene.options(a.scene.lightCount()),
         .gbufferLayout = a.frame.gbufferLayout(),
-        .settings = {.path = choose("--path", a.path, pathChoices),
+        .settings = {.path = choose("--path", a.path, cameraPathChoices),
                      .rounds = rounds,
                      .warmUpSeconds = numberOption("--warm-up", a.warmUp, 0, maxWarmUpSeconds),
                      .framesInFlight = inFlight}};
@@ -260,9 +257,8 @@ void addProfileCommand(CLI::App& app, Run& run)
     addOption(*command, "--frames-in-flight", a->framesInFlight, "N",
               "number of frames that the CPU records before it waits for the oldest; with 1 the "
               "GPU is idle between frames, and some GPUs lower their clock");
-    addOption(
-        *command, "--path", a->path, "NAME",
-        "path of the camera over all frames: still, or turn, which turns once around the vertical");
+    addChoice(*command, "--path", a->path, cameraPathChoices,
+              "path of the camera over all frames; turn turns once around the vertical");
     command
         ->add_option("--ab", a->ab,
                      "compare two variants of the frame, each given as one string of options; "

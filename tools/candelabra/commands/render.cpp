@@ -47,7 +47,8 @@ struct RenderPlan {
     FrameCounts counts;
     std::optional<uint32_t> samples; // of each frame; empty: the device decides
     bool sequence = false;           // every frame is written, to numbered files
-    double interval = frameTime;     // seconds from frame to frame, if anything moves
+    CameraPath path = CameraPath::Still;
+    double interval = frameTime; // seconds from frame to frame, if anything moves
     std::optional<PixelPosition> pick;
 };
 
@@ -168,6 +169,7 @@ RenderPlan plan(const RenderArguments& a)
                                        : unsignedOption("--frames", a.frames, 1, 1'000'000)},
             .samples = frameSamples(a, sequence),
             .sequence = sequence,
+            .path = choose("--path", a.path, cameraPathChoices),
             .interval = 1 / numberOption("--fps", a.fps, 0.01, 1000),
             .pick = pickedPixel(a)};
 }
@@ -246,7 +248,7 @@ void announce(const Scene& scene, PixelSize size, const VulkanContext& context, 
 
 // Draws all frames, and writes pictures of the last one or, of a sequence, of each.
 MeasuredFrames drawFrames(const ProgramContext& program, const RenderArguments& a,
-                          const RenderPlan& p, const CameraPath& path, bool moving,
+                          const RenderPlan& p, const Camera& first, bool moving,
                           const VulkanContext& context, Renderer& renderer)
 {
     Progress progress(p.counts.warmUp + double(p.counts.measured) * p.counts.samples,
@@ -254,7 +256,7 @@ MeasuredFrames drawFrames(const ProgramContext& program, const RenderArguments& 
     progress.doing("rendering");
     FrameHooks hooks;
     hooks.prepare = [&](uint32_t frame, FrameOptions& options) {
-        options.camera = path.at(frame, p.counts.measured);
+        options.camera = cameraAt(first, p.path, frame, p.counts.measured);
     };
     if (p.sequence)
         hooks.finished = [&](uint32_t frame) {
@@ -287,8 +289,8 @@ int render(const ProgramContext& program, const RenderArguments& a)
     const Scene scene = loadScene(a.scene.scene, p.scene);
     logWarnings(scene);
     requireSomethingToDraw(scene, a.scene.scene);
-    const CameraPath path(scene, a.frame.chosenCamera(scene), a.path);
-    p.frame.camera = path.start();
+    const Camera first = a.frame.chosenCamera(scene);
+    p.frame.camera = first;
     const bool evIsGiven = p.frame.exposure.manual;
     useKnownExposure(scene, p.frame.exposure);
     p.frame.lightsVisible = a.frame.lightsVisibleOverride().value_or(scene.lightsVisible);
@@ -309,13 +311,13 @@ int render(const ProgramContext& program, const RenderArguments& a)
                        .specularMethods = 1u << p.frame.specular,
                        .shading = shadingOf(p.frame),
                        .influenceByError = p.frame.influence.rule == CND_INFLUENCE_BY_ERROR});
-    const bool moving = !scene.lightMotions.empty() || path.moves();
-    const MeasuredFrames frames = drawFrames(program, a, p, path, moving, context, renderer);
+    const bool moving = !scene.lightMotions.empty() || p.path != CameraPath::Still;
+    const MeasuredFrames frames = drawFrames(program, a, p, first, moving, context, renderer);
     if (!p.sequence)
         spdlog::info("{}", exposureText(p.frame.exposure, scene, evIsGiven, frames.last.exposure));
     writePictures(a, p, context, renderer);
     // What follows looks at the last frame.
-    p.frame.camera = path.at(p.counts.measured - 1, p.counts.measured);
+    p.frame.camera = cameraAt(first, p.path, p.counts.measured - 1, p.counts.measured);
     p.frame.time += moving ? p.interval * (p.counts.measured - 1) : 0;
     return examine(program, a, p, context, scene, renderer, frames);
 }
@@ -356,10 +358,8 @@ void addRenderCommand(CLI::App& app, Run& run)
               "writes all of them if its name has a place for their number, such as f.%04d.png, "
               "and otherwise only the last");
     addPictureOptions(*command, *a);
-    addOption(*command, "--path", a->path, "NAME|FILE",
-              "path of the camera over all frames: still; turn, which turns once around the "
-              "vertical; or a text file with one camera per line, written as for --camera, which "
-              "the camera passes through");
+    addChoice(*command, "--path", a->path, cameraPathChoices,
+              "path of the camera over all frames; turn turns once around the vertical");
     addOption(*command, "--fps", a->fps, "N",
               "frames per second, for moving lights and for the adaptation of the eye");
     addOption(*command, "--time", a->time, "SECONDS",

@@ -10,7 +10,6 @@
 #include "io/statistics.h"
 #include "io/table.h"
 #include "measure/frame/frames.h"
-#include "render/camera_path.h"
 #include "render/frame_ring.h"
 #include "render/frame_stamps.h"
 #include "render/readback.h"
@@ -102,11 +101,6 @@ ProfilingOverhead overheadOf(const FrameSeries& series, double stampMs)
         passes.push_back(series.spanMs[i] > 0 ? series.gpuMs[i] / series.spanMs[i] : 0);
     out.passes = medianOf(passes);
     return out;
-}
-
-Camera cameraAt(const Camera& camera, ProfilePath path, uint32_t i, uint32_t rounds)
-{
-    return path == ProfilePath::Still ? camera : turnedBy(camera, double(i) / std::max(rounds, 1u));
 }
 
 namespace

@@ -9,6 +9,7 @@
 
 #include "io/report.h"
 #include "io/table.h"
+#include "render/camera_path.h"
 #include "render/renderer.h"
 
 namespace candelabra::app
@@ -69,12 +70,10 @@ struct ProfilingOverhead {
     double passes = 0; // gpuMs divided by spanMs, median of the frames
 };
 
-enum class ProfilePath { Still, Turn };
-
 struct ProfileSettings {
     // The variants are drawn in turn, and in the opposite order in every other round.
     std::vector<FrameOptions> variants;
-    ProfilePath path = ProfilePath::Still;
+    CameraPath path = CameraPath::Still;
     bool moving = false; // lights move; a round is a sixtieth of a second
     uint32_t rounds = 1;
     double warmUpSeconds = 0; // the warm-up takes at least so long
@@ -100,10 +99,6 @@ struct Profile {
 };
 
 ProfilingOverhead overheadOf(const FrameSeries& series, double stampMs);
-
-// Returns the camera of round `i` of `rounds`. With ProfilePath::Turn it turns once around the
-// vertical through its position in all rounds.
-Camera cameraAt(const Camera& camera, ProfilePath path, uint32_t i, uint32_t rounds);
 
 // Draws all rounds. `onRound` is called after each round, except for warm-up rounds beyond
 // maxWarmUp.
