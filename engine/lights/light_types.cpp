@@ -93,7 +93,8 @@ VkBool32 cndIsDistant(uint32_t lightType)
 
 VkBool32 cndIsPunctual(uint32_t lightType)
 {
-    return lightType < gpu::LIGHT_TYPE_COUNT && lighting::isPunctual(lightType);
+    return lightType < gpu::LIGHT_TYPE_COUNT &&
+           lighting::baseFamilyOf(lightType) == gpu::FAMILY_PUNCTUAL;
 }
 
 float cndEmitterBoundingRadius(const CndLight* light)

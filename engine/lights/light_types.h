@@ -68,12 +68,6 @@ constexpr bool isSphere(uint32_t lightType)
     return baseFamilyOf(lightType) == gpu::FAMILY_SPHERE;
 }
 
-// Punctual lights have no size. The emission of all other lights is luminance.
-constexpr bool isPunctual(uint32_t lightType)
-{
-    return baseFamilyOf(lightType) == gpu::FAMILY_PUNCTUAL;
-}
-
 // boundingRadiusOf for types with axes.
 float boundingRadiusOfAxes(const CndLight& light);
 // Returns the radius of a sphere around the light's centre that holds its emitter: in metres, 0 for

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/environment_harness.h"
+#include "gpu/fill_image.h"
 
 #include <cmath>
 #include <numbers>
@@ -62,15 +63,7 @@ void EnvironmentTest::setImage(const EnvironmentImage& source, uint32_t cubeSize
         VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, VK_IMAGE_ASPECT_COLOR_BIT);
     const gpu::Buffer data = upload("sky data", source.pixels);
     context().submitAndWait([&](VkCommandBuffer cmd) {
-        const VkImage handle = image.image.get();
-        transition(cmd, handle, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_UNDEFINED,
-                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-        const VkBufferImageCopy copy{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                                     .imageExtent = {source.width, source.height, 1}};
-        vkCmdCopyBufferToImage(cmd, data.get(), handle, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
-                               &copy);
-        transition(cmd, handle, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                   VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+        fillImage(cmd, data, image.image.get(), source.width, source.height);
         const CndEnvironmentMap map{.structSize = sizeof map,
                                     .width = source.width,
                                     .height = source.height,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/exposure_harness.h"
+#include "gpu/fill_image.h"
 #include "harness/constants.h"
 
 #include <cmath>
@@ -122,16 +123,7 @@ gpu::Image ExposureTest::toDevice(const Picture& picture) const
         VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, VK_IMAGE_ASPECT_COLOR_BIT);
     const gpu::Buffer source = upload("test radiance data", picture.rgba);
     context().submitAndWait([&](VkCommandBuffer cmd) {
-        constexpr VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
-        const VkImage target = image.image.get();
-        transition(cmd, target, aspect, VK_IMAGE_LAYOUT_UNDEFINED,
-                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-        const VkBufferImageCopy copy{.imageSubresource = {aspect, 0, 0, 1},
-                                     .imageExtent = {picture.width, picture.height, 1}};
-        vkCmdCopyBufferToImage(cmd, source.get(), target, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
-                               &copy);
-        transition(cmd, target, aspect, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                   VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+        fillImage(cmd, source, image.image.get(), picture.width, picture.height);
     });
     return image;
 }

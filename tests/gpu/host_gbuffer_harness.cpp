@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/host_gbuffer_harness.h"
+#include "gpu/fill_image.h"
 
 #include <cmath>
 #include <cstring>
@@ -266,21 +267,14 @@ HostGBufferTest::HostImages HostGBufferTest::uploadHost(const HostPixels& p)
         const VkImageAspectFlags aspect =
             isDepth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
         const bool stencil = formats[i] == VK_FORMAT_D32_SFLOAT_S8_UINT;
-        const VkImageAspectFlags all = aspect | (stencil ? VK_IMAGE_ASPECT_STENCIL_BIT : 0);
         gpu::Image& image = i == 3 ? images.depth : images.colour[i];
         image =
             gpu::createImage(device(), "host G-buffer", formats[i], p.width, p.height,
                              VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, aspect);
         const gpu::Buffer data = upload("host G-buffer data", i == 3 ? p.depth : p.images[i]);
         context().submitAndWait([&](VkCommandBuffer cmd) {
-            transition(cmd, image.image.get(), all, VK_IMAGE_LAYOUT_UNDEFINED,
-                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-            const VkBufferImageCopy copy{.imageSubresource = {aspect, 0, 0, 1},
-                                         .imageExtent = {p.width, p.height, 1}};
-            vkCmdCopyBufferToImage(cmd, data.get(), image.image.get(),
-                                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
-            transition(cmd, image.image.get(), all, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                       VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+            fillImage(cmd, data, image.image.get(), p.width, p.height, aspect,
+                      stencil ? VK_IMAGE_ASPECT_STENCIL_BIT : 0);
         });
     }
     return images;

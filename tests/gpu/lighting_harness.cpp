@@ -7,6 +7,7 @@
 #include <map>
 #include <tuple>
 
+#include "gpu/fill_image.h"
 #include "scene/polygons.h"
 
 namespace candelabra::test
@@ -296,15 +297,7 @@ LightingTest::Images LightingTest::uploadImages(const CpuGBuffer& g)
         for (size_t i = 0; i < 4; ++i) {
             const VkImageAspectFlags aspect =
                 i == 3 ? VkImageAspectFlags(VK_IMAGE_ASPECT_DEPTH_BIT) : colour;
-            const VkImage image = targets[i]->image.get();
-            transition(cmd, image, aspect, VK_IMAGE_LAYOUT_UNDEFINED,
-                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-            const VkBufferImageCopy copy{.imageSubresource = {aspect, 0, 0, 1},
-                                         .imageExtent = {g.width, g.height, 1}};
-            vkCmdCopyBufferToImage(cmd, sources[i].get(), image,
-                                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
-            transition(cmd, image, aspect, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                       VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+            fillImage(cmd, sources[i], targets[i]->image.get(), g.width, g.height, aspect);
         }
         transition(cmd, images.radiance.image.get(), colour, VK_IMAGE_LAYOUT_UNDEFINED,
                    VK_IMAGE_LAYOUT_GENERAL);

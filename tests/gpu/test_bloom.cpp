@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "generate/generators.h"
+#include "gpu/fill_image.h"
 #include "harness/gpu_fixture.h"
 #include "measure/frame/frames.h"
 #include "render/bloom.h"
@@ -53,15 +54,7 @@ protected:
         Bloom bloom(device(), picture.size, 1);
         const gpu::Buffer out = readback("bloomed", texels.size() * sizeof(glm::vec4));
         context().submitAndWait([&](VkCommandBuffer cmd) {
-            const VkImage to = radiance.image.get();
-            test::transition(cmd, to, colour, VK_IMAGE_LAYOUT_UNDEFINED,
-                             VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-            const VkBufferImageCopy copy{.imageSubresource = {colour, 0, 0, 1},
-                                         .imageExtent = {width, height, 1}};
-            vkCmdCopyBufferToImage(cmd, data.get(), to, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
-                                   &copy);
-            test::transition(cmd, to, colour, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                             VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+            test::fillImage(cmd, data, radiance.image.get(), width, height);
             bloom.record(cmd, 0, radiance.view.get(), share);
         });
         Grey result(picture.size);

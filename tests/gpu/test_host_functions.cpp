@@ -7,6 +7,7 @@
 
 #include "candelabra/compiler.hpp"
 #include "gpu/environment_harness.h"
+#include "gpu/fill_image.h"
 #include "gpu/gpu_like_device.h"
 #include "gpu/host_surface.h"
 
@@ -122,16 +123,8 @@ protected:
             gpu::createImage(device(), "linear depth", VK_FORMAT_R32_SFLOAT, g_.width, g_.height,
                              VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
                              VK_IMAGE_ASPECT_COLOR_BIT);
-        const VkImage image = images_.depth.image.get();
         context().submitAndWait([&](VkCommandBuffer cmd) {
-            transition(cmd, image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_UNDEFINED,
-                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-            const VkBufferImageCopy copy{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                                         .imageExtent = {g_.width, g_.height, 1}};
-            vkCmdCopyBufferToImage(cmd, data.get(), image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
-                                   &copy);
-            transition(cmd, image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                       VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+            fillImage(cmd, data, images_.depth.image.get(), g_.width, g_.height);
         });
     }
     std::vector<glm::vec4> frame(CndLightingView view, const RunOptions& options)

@@ -17,7 +17,6 @@
 #include "render/edge_filter.h"
 #include "render/frame_stamps.h"
 #include "render/image_barrier.h"
-#include "render/lit.h"
 #include "render/pipeline_watch.h"
 #include "render/scene_environment.h"
 #include "render/scene_geometry.h"
@@ -155,6 +154,29 @@ uint32_t lightTypesOf(const Scene& scene)
         out |= 1u << light.type;
     return out;
 }
+
+// Everything that decides the lit image of one scene at one size: two frames with equal values have
+// the same image.
+struct Lit {
+    Camera camera;
+    FrameSample sample;
+    double lightTime;
+    bool lightsVisible;
+    bool levels;
+    CndSpecularMethod specular;
+    uint32_t sampleCount, sampleSeed;
+    CndCulling culling;
+    CndInfluenceRule influence;
+    float influenceError, influenceExposure; // of CND_INFLUENCE_BY_ERROR
+    CndToneMap influenceToneMap;
+
+    bool operator==(const Lit&) const = default;
+    bool sameSurfaces(const Lit& other) const
+    {
+        return camera == other.camera && sample == other.sample &&
+               lightsVisible == other.lightsVisible && levels == other.levels;
+    }
+};
 
 struct Renderer::State {
     const VulkanContext& context;

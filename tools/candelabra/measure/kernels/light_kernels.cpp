@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <limits>
 
 #include "candelabra_bench_shaders.h"
 #include "lights/pack_lights.h"
-#include "measure/kernels/ltc_table.h"
 #include "shading/light_family.h"
+#include "shared/ltc.h"
 
 namespace candelabra::app
 {
@@ -85,7 +86,18 @@ gpu::Buffer uploadReceivers(const gpu::Device& device,
 
 gpu::Buffer uploadLtcTable(const gpu::Device& device)
 {
-    gpu::Buffer out = upload(device, "transformed cosines", std::span<const glm::vec4>(ltcTable()));
+    constexpr size_t rowSize = 5;
+    static constexpr double numbers[] = {
+    // shared/ltc.h describes what they become
+#include "measure/kernels/ltc_table.inc"
+    };
+    static_assert(std::size(numbers) == rowSize * gpu::LTC_TABLE_SIZE * gpu::LTC_TABLE_SIZE);
+    std::vector<glm::vec4> texels;
+    for (size_t i = 0; i < std::size(numbers); i += rowSize) {
+        texels.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]);
+        texels.emplace_back(numbers[i + 4], 0, 0, 0);
+    }
+    gpu::Buffer out = upload(device, "transformed cosines", std::span<const glm::vec4>(texels));
     gpu::createTexelView(device, out);
     return out;
 }

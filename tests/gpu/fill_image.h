@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fills an image that has one mip level.
+#pragma once
+
+#include "gpu/memory.h"
+#include "harness/gpu_fixture.h"
+
+namespace candelabra::test
+{
+
+// Records a copy of `data`, rows without gaps, into an aspect of the image. Afterwards shaders may
+// read the image. `beside` is an aspect that it has as well.
+inline void fillImage(VkCommandBuffer cmd, const gpu::Buffer& data, VkImage image, uint32_t width,
+                      uint32_t height, VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT,
+                      VkImageAspectFlags copied = VK_IMAGE_ASPECT_COLOR_BIT)
+{
+    transition(cmd, image, aspect, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    const VkBufferImageCopy copy{.imageSubresource = {copied, 0, 0, 1},
+                                 .imageExtent = {width, height, 1}};
+    vkCmdCopyBufferToImage(cmd, data.get(), image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
+    transition(cmd, image, aspect, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+               VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+}
+
+} // namespace candelabra::test
