@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Layout of the table of linearly transformed cosines
-// (tools/candelabra/measure/kernels/ltc_table.h), which shaders/bench/ltc/lobes.glsl reads.
+// (tools/candelabra/measure/kernels/ltc_table.inc), which shaders/bench/ltc/lobes.glsl reads.
 #ifndef CND_SHARED_LTC_H
 #define CND_SHARED_LTC_H
 
