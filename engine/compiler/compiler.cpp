@@ -40,7 +40,7 @@ struct Process {
     Process& operator=(const Process&) = delete;
 };
 
-const ShaderSource* find(std::string_view name)
+const ShaderSource* findSource(std::string_view name)
 {
     const auto sources = shaderSources();
     const auto found = std::ranges::find(sources, name, &ShaderSource::name);
@@ -52,7 +52,7 @@ class Includer final : public glslang::TShader::Includer
 public:
     IncludeResult* includeLocal(const char* name, const char*, size_t) override
     {
-        const ShaderSource* source = find(name);
+        const ShaderSource* source = findSource(name);
         return source ? new IncludeResult(name, source->text.data(), source->text.size(), nullptr)
                       : nullptr;
     }
@@ -155,7 +155,7 @@ std::vector<uint32_t> compile(const Job& job, const CndCompileDesc& desc)
         preamble += "#define CANDELABRA_READ_SURFACE\n";
 
     const std::string kernelName = "kernels/" + job.kernel + ".comp";
-    const ShaderSource& kernel = *find(kernelName);
+    const ShaderSource& kernel = *findSource(kernelName);
     const std::string_view source = desc.source;
     // Every kernel includes the declaration of CndShadowQuery: those that evaluate no lights get
     // the same source, and a source that lacks the promised function is then reported as such

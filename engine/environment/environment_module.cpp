@@ -34,7 +34,7 @@ constexpr uint32_t defaultCubeSize = 256;
 // column.
 constexpr uint32_t cubeIterations = 60000, cubeRowOverhead = 16;
 
-CndEnvironmentDesc checked(const gpu::Device& device, CndEnvironmentDesc desc)
+CndEnvironmentDesc checkedDesc(const gpu::Device& device, CndEnvironmentDesc desc)
 {
     if (desc.structSize != sizeof desc)
         gpu::failArgument("CndEnvironmentDesc: structSize is " + std::to_string(desc.structSize) +
@@ -166,7 +166,7 @@ glm::dmat3 rotationOf(const float (&columns)[9])
 
 Environment::Environment(const CndDeviceDesc& device, const CndEnvironmentDesc& desc)
     : device_(device, gpu::environmentModule),
-      desc_(checked(device_, desc)),
+      desc_(checkedDesc(device_, desc)),
       gbuffer_(device_, desc_.gbufferLayout, desc_.gbuffer),
       uniforms_(device_, desc_.framesInFlight),
       timer_(device_, "environment", desc_.framesInFlight + 1, desc_.timestamps),

@@ -42,7 +42,7 @@ uint32_t nextOwner() noexcept
     return next++;
 }
 
-CndExposureDesc checked(const gpu::Device& device, CndExposureDesc desc)
+CndExposureDesc checkedDesc(const gpu::Device& device, CndExposureDesc desc)
 {
     if (desc.structSize != sizeof desc)
         gpu::failArgument("CndExposureDesc: structSize is " + std::to_string(desc.structSize) +
@@ -59,7 +59,7 @@ CndExposureDesc checked(const gpu::Device& device, CndExposureDesc desc)
 
 Exposure::Exposure(const CndDeviceDesc& device, const CndExposureDesc& desc)
     : device_(device, gpu::exposureModule),
-      desc_(checked(device_, desc)),
+      desc_(checkedDesc(device_, desc)),
       timer_(device_, "exposure", desc_.framesInFlight, desc_.timestamps),
       adapt_(device_, spirv::adapt_exposure_comp),
       slots_(desc.framesInFlight),

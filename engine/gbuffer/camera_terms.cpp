@@ -17,7 +17,7 @@ namespace
 
 // Returns the part of x that a float loses. g++ 12.2 vectorises double(float(x)) of neighbouring
 // members to x, so that the result would be 0 (-O2, x86-64); volatile keeps the rounding.
-float remainder(double x)
+float floatRemainder(double x)
 {
     const volatile float kept = float(x);
     return float(x - double(kept));
@@ -26,7 +26,7 @@ float remainder(double x)
 } // namespace
 
 DoubleSingle::DoubleSingle(const glm::dvec3& x)
-    : hi(x), lo(remainder(x.x), remainder(x.y), remainder(x.z))
+    : hi(x), lo(floatRemainder(x.x), floatRemainder(x.y), floatRemainder(x.z))
 {
 }
 

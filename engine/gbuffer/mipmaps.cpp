@@ -72,7 +72,7 @@ std::vector<Taps> halvingTaps(uint32_t n)
 // Halves an image. `read(x, y, channel)` returns the source in linear space; the result has 4
 // floats per texel.
 template <typename Read>
-std::vector<float> halve(uint32_t width, uint32_t height, const Read& read)
+std::vector<float> halvedImage(uint32_t width, uint32_t height, const Read& read)
 {
     const std::vector<Taps> columns = halvingTaps(width), rows = halvingTaps(height);
     std::vector<float> result(columns.size() * rows.size() * channels);
@@ -118,7 +118,7 @@ void writeMips(const Texture& texture, const std::vector<MipLevel>& levels,
     const Encoding color(texture.srgb), alpha(false);
     const Encoding* const encodings[channels] = {&color, &color, &color, &alpha};
     std::vector<float> level =
-        halve(texture.width, texture.height, [&](uint32_t x, uint32_t y, size_t c) {
+        halvedImage(texture.width, texture.height, [&](uint32_t x, uint32_t y, size_t c) {
             return encodings[c]->decode(
                 texture.rgba[(size_t(y) * texture.width + x) * channels + c]);
         });
@@ -127,10 +127,10 @@ void writeMips(const Texture& texture, const std::vector<MipLevel>& levels,
         for (size_t i = 0; i < level.size(); ++i)
             out[i] = std::byte(encodings[i % channels]->encode(level[i]));
         if (k + 1 < levels.size())
-            level = halve(levels[k].width, levels[k].height,
-                          [&, above = level.data()](uint32_t x, uint32_t y, size_t c) {
-                              return above[(size_t(y) * levels[k].width + x) * channels + c];
-                          });
+            level = halvedImage(levels[k].width, levels[k].height,
+                                [&, above = level.data()](uint32_t x, uint32_t y, size_t c) {
+                                    return above[(size_t(y) * levels[k].width + x) * channels + c];
+                                });
     }
 }
 

@@ -31,7 +31,7 @@ void checkLightTypes(const char* owner, uint32_t lightTypes)
                           ": lightTypes has bits beyond the last CndLightType");
 }
 
-CndLightingDesc checked(const gpu::Device& device, CndLightingDesc desc)
+CndLightingDesc checkedDesc(const gpu::Device& device, CndLightingDesc desc)
 {
     if (desc.structSize != sizeof desc)
         gpu::failArgument("CndLightingDesc: structSize is " + std::to_string(desc.structSize) +
@@ -60,7 +60,7 @@ CndLightingDesc checked(const gpu::Device& device, CndLightingDesc desc)
 
 Lighting::Lighting(const CndDeviceDesc& device, const CndLightingDesc& desc)
     : device_(device, gpu::lightingModule),
-      desc_(checked(device_, desc)),
+      desc_(checkedDesc(device_, desc)),
       gbuffer_(device_, desc_.gbufferLayout, desc_.gbuffer),
       hostKernels_(desc_.hostKernels, desc_.gbufferLayout),
       kernels_(device_, hostKernels_, desc_, gbuffer_.code(), readsLightIds(desc_)),

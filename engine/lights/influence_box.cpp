@@ -37,11 +37,11 @@ InfluenceBoxes influenceBoxesOf(std::span<const CndLight> lights)
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         out[type] = isDistant(type) ? endlessBox(0)
                                     : InfluenceBox{glm::dvec3(unbounded), glm::dvec3(-unbounded)};
-    widen(out, lights);
+    widenBoxes(out, lights);
     return out;
 }
 
-void widen(InfluenceBoxes& boxes, std::span<const CndLight> lights)
+void widenBoxes(InfluenceBoxes& boxes, std::span<const CndLight> lights)
 {
     for (size_t i = 0; i < lights.size();) {
         const uint32_t type = lights[i].type;
@@ -59,7 +59,7 @@ void widen(InfluenceBoxes& boxes, std::span<const CndLight> lights)
     }
 }
 
-void widen(InfluenceBoxes& boxes, const InfluenceBoxes& more)
+void widenBoxes(InfluenceBoxes& boxes, const InfluenceBoxes& more)
 {
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
         boxes[type].low = glm::min(boxes[type].low, more[type].low);

@@ -40,9 +40,9 @@ InfluenceBox endlessBox(uint32_t layers);
 InfluenceBoxes influenceBoxesOf(std::span<const CndLight> lights);
 
 // Grows each box until it holds the box of the same type in `more`, and adds that box's layers.
-void widen(InfluenceBoxes& boxes, const InfluenceBoxes& more);
+void widenBoxes(InfluenceBoxes& boxes, const InfluenceBoxes& more);
 // Does the same for the lights of each type.
-void widen(InfluenceBoxes& boxes, std::span<const CndLight> lights);
+void widenBoxes(InfluenceBoxes& boxes, std::span<const CndLight> lights);
 
 // Returns false only if no point that the camera shows is inside the box.
 bool reachesView(const InfluenceBox& box, const double origin[3], const CndCamera& camera);

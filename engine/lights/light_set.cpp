@@ -197,7 +197,7 @@ void LightSet::finishEdit(const LightTypeCounts& types, const InfluenceBoxes& bo
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         if (!typeCounts_[type])
             influenceBoxes_[type] = none[type];
-    widen(influenceBoxes_, boxes);
+    widenBoxes(influenceBoxes_, boxes);
     typeCounts_ = types;
     count_ = firstRecord_ + lights_.count();
     ++number_;

@@ -24,7 +24,7 @@ void reserveMore(std::vector<T>& v, size_t more)
         v.reserve(std::max(v.size() + more, v.capacity() + v.capacity() / 2));
 }
 
-std::string text(CndLightId id)
+std::string idText(CndLightId id)
 {
     return std::to_string(uint32_t(id)) + " (generation " + std::to_string(id >> 32) + ")";
 }
@@ -61,7 +61,7 @@ void LightTable::check(const char* call, std::span<const CndLightId> ids)
         if (const uint32_t slot = slotOf(id); slot >= recordOf_.size() ||
                                               recordOf_[slot] == noRecord ||
                                               generations_[slot] != uint32_t(id >> 32))
-            gpu::failArgument(std::string(call) + ": no light of the set has the id " + text(id));
+            gpu::failArgument(std::string(call) + ": no light of the set has the id " + idText(id));
     if (std::ranges::adjacent_find(ids, std::greater_equal<>()) == ids.end())
         return; // each is larger than the one before
     seen_.resize(recordOf_.size());
@@ -71,7 +71,7 @@ void LightTable::check(const char* call, std::span<const CndLightId> ids)
     for (const CndLightId id : ids.first(different))
         seen_[slotOf(id)] = false;
     if (different < ids.size())
-        gpu::failArgument(std::string(call) + ": the id " + text(ids[different]) +
+        gpu::failArgument(std::string(call) + ": the id " + idText(ids[different]) +
                           " is given twice");
 }
 

@@ -40,7 +40,7 @@ constexpr uint32_t fieldsOf(uint32_t lightType)
     return lightType < gpu::LIGHT_TYPE_COUNT ? fieldsOfTypes[lightType] : 0;
 }
 
-constexpr bool has(uint32_t lightType, uint32_t field)
+constexpr bool hasField(uint32_t lightType, uint32_t field)
 {
     return (fieldsOf(lightType) & field) != 0;
 }
@@ -49,7 +49,7 @@ constexpr bool has(uint32_t lightType, uint32_t field)
 // light tree and in no list.
 constexpr bool isDistant(uint32_t lightType)
 {
-    return !has(lightType, gpu::LIGHT_HAS_POSITION);
+    return !hasField(lightType, gpu::LIGHT_HAS_POSITION);
 }
 
 // Returns the family of the type. Types that are shaded by the specular methods of spheres belong

@@ -43,13 +43,13 @@ bool isNear(const float (&v)[3])
 
 const char* whyAxesInvalid(const CndLight& light)
 {
-    if (!has(light.type, gpu::LIGHT_HAS_AXIS_U))
+    if (!hasField(light.type, gpu::LIGHT_HAS_AXIS_U))
         return nullptr;
     const glm::vec3 u = vec(light.axisU), v = vec(light.axisV);
     const float lengthU = std::hypot(u.x, u.y, u.z), lengthV = std::hypot(v.x, v.y, v.z);
     if (!(isNear(light.axisU) && lengthU >= minLength))
         return "axisU must be finite and not zero";
-    if (!has(light.type, gpu::LIGHT_HAS_AXIS_V))
+    if (!hasField(light.type, gpu::LIGHT_HAS_AXIS_V))
         return nullptr;
     if (!(isNear(light.axisV) && lengthV >= minLength))
         return "axisV must be finite and not zero";
@@ -60,7 +60,7 @@ const char* whyAxesInvalid(const CndLight& light)
 
 const char* whyConeInvalid(const CndLight& light)
 {
-    if (!has(light.type, gpu::LIGHT_HAS_CONE))
+    if (!hasField(light.type, gpu::LIGHT_HAS_CONE))
         return nullptr;
     // float(pi / 2) may exceed the double by an ulp.
     constexpr float quarterTurn = float(std::numbers::pi / 2) * (1 + 1e-6f);
@@ -74,7 +74,7 @@ const char* whyConeInvalid(const CndLight& light)
 
 const char* whyRadiusInvalid(const CndLight& light)
 {
-    if (!has(light.type, gpu::LIGHT_HAS_RADIUS))
+    if (!hasField(light.type, gpu::LIGHT_HAS_RADIUS))
         return nullptr;
     if (!(light.radius >= minLength && light.radius <= maxCoordinate))
         return "radius must be within 1e-15..1e15";
@@ -91,7 +91,7 @@ const char* whyInfluenceInvalid(const CndLight& light)
         return "influenceRadius must be > 0 (INFINITY for uncut)";
     if (light.influenceRadius > boundingRadiusOf(light))
         return nullptr;
-    return has(light.type, gpu::LIGHT_HAS_AXIS_U)
+    return hasField(light.type, gpu::LIGHT_HAS_AXIS_U)
                ? "influenceRadius must be greater than the distance from the light's centre to the "
                  "farthest point of its emitter"
                : "influenceRadius must be greater than radius";
@@ -108,7 +108,7 @@ const char* whyInvalid(const CndLight& light)
             return "emission must be finite and >= 0";
     if (!isDistant(light.type) && !isNear(light.position))
         return "position must be finite and within 1e15 m of the origin";
-    if (has(light.type, gpu::LIGHT_HAS_DIRECTION)) {
+    if (hasField(light.type, gpu::LIGHT_HAS_DIRECTION)) {
         const float length = std::hypot(light.direction[0], light.direction[1], light.direction[2]);
         if (!(std::abs(length - 1) <= 1e-3f))
             return "direction must be a unit vector";
@@ -119,7 +119,7 @@ const char* whyInvalid(const CndLight& light)
         return why;
     if (const char* why = whyAxesInvalid(light))
         return why;
-    if (has(light.type, gpu::LIGHT_HAS_CORNERS))
+    if (hasField(light.type, gpu::LIGHT_HAS_CORNERS))
         if (const char* why = whyPolygonInvalid(light.polygon))
             return why;
     if (const char* why = whyInfluenceInvalid(light))
@@ -184,7 +184,7 @@ LightSummary validateLights(std::span<const CndLight> lights)
                 gpu::failArgument("lights[" + std::to_string(first + i) + "]: " + why);
             ++out.types[block[i].type];
         }
-        widen(out.boxes, block);
+        widenBoxes(out.boxes, block);
     }
     return out;
 }

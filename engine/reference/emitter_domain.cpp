@@ -124,8 +124,8 @@ std::vector<double> panelsOf(const Range& range, std::vector<double> breaks)
 
 // Integrates over points center + x u + y v with |x|, |y| <= 1 (rectangle) or x^2 + y^2 <= 1
 // (disc).
-LightResponse planar(const Receiver& receiver, const glm::dvec3& center, const glm::dvec3& u,
-                     const glm::dvec3& v, bool disc, double relative)
+LightResponse planarResponse(const Receiver& receiver, const glm::dvec3& center,
+                             const glm::dvec3& u, const glm::dvec3& v, bool disc, double relative)
 {
     const glm::dvec3& n = receiver.surface.normal;
     const glm::dvec3 areaNormal = glm::cross(u, v);
@@ -331,7 +331,7 @@ LightResponse emitterDomainResponse(const SurfacePoint& surface, double alpha,
         const glm::dvec3 u = vec3(light.axisU), v = vec3(light.axisV);
         if (!light.twoSided && !(glm::dot(glm::cross(u, v), center) < 0))
             return {};
-        return planar(receiver, center, u, v, false, relative);
+        return planarResponse(receiver, center, u, v, false, relative);
     }
     case CND_LIGHT_POLYGON: {
         if (!light.twoSided &&
@@ -350,7 +350,7 @@ LightResponse emitterDomainResponse(const SurfacePoint& surface, double alpha,
             return {};
         const Frame frame = frameAround(normal, n);
         const double radius = light.radius;
-        return planar(receiver, center, radius * frame.x, radius * frame.y, true, relative);
+        return planarResponse(receiver, center, radius * frame.x, radius * frame.y, true, relative);
     }
     case CND_LIGHT_TUBE: {
         const glm::dvec3 half = vec3(light.axisU);

@@ -14,7 +14,7 @@ namespace
 
 using std::numbers::pi;
 
-double wrapped(double angle)
+double wrappedAngle(double angle)
 {
     return std::remainder(angle, 2 * pi);
 }
@@ -222,7 +222,7 @@ public:
                 return;
             }
             // The arcs overlap: take their union.
-            const double shift = wrapped(part->centre - out->centre);
+            const double shift = wrappedAngle(part->centre - out->centre);
             const double low = std::min(-out->halfWidth, shift - part->halfWidth);
             const double high = std::max(out->halfWidth, shift + part->halfWidth);
             out = Arc{out->centre + (low + high) / 2, (high - low) / 2};
@@ -257,7 +257,7 @@ private:
 
 std::optional<Arc> intersect(const Arc& a, const Arc& b)
 {
-    const double shift = wrapped(b.centre - a.centre);
+    const double shift = wrappedAngle(b.centre - a.centre);
     const double low = std::max(-a.halfWidth, shift - b.halfWidth);
     const double high = std::min(a.halfWidth, shift + b.halfWidth);
     if (!(low < high))

@@ -155,7 +155,7 @@ struct Seen {
     Material material; // of the surface, as it appears from the eye
 };
 
-Seen look(const Scene& scene, const Ray& ray)
+Seen traceRay(const Scene& scene, const Ray& ray)
 {
     const ObjectHit object = nearestObject(scene, ray);
     double nearest = object.distance;
@@ -193,7 +193,7 @@ std::optional<Hit> tracePixel(const Scene& scene, uint32_t width, uint32_t heigh
 glm::dvec3 renderPixel(const Scene& scene, uint32_t width, uint32_t height, uint32_t column,
                        uint32_t row, CndSpecularMethod specularMethod)
 {
-    const Seen seen = look(scene, pixelRay(scene.camera, width, height, column, row));
+    const Seen seen = traceRay(scene, pixelRay(scene.camera, width, height, column, row));
     glm::dvec3 luminance = seen.luminance;
     if (seen.surface)
         for (const CndLight& light : scene.lights)
@@ -229,7 +229,8 @@ TruthRows renderTruth(const Scene& scene, uint32_t width, uint32_t height,
     std::mutex rowMutex;
     inParallel(static_cast<uint32_t>(rows.size()), options.threads, [&](uint32_t i) {
         for (uint32_t column = 0; column < width; ++column) {
-            const Seen seen = look(scene, pixelRay(scene.camera, width, height, column, rows[i]));
+            const Seen seen =
+                traceRay(scene, pixelRay(scene.camera, width, height, column, rows[i]));
             glm::dvec3& pixel = out.pixels[static_cast<size_t>(i) * width + column];
             pixel = seen.luminance;
             if (!seen.surface)

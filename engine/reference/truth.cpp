@@ -62,7 +62,7 @@ LightResponse truthOfTube(const SurfacePoint& surface, double alpha, const CndLi
 
 // Whether a receiver sees a flat light: not from behind unless it is two-sided, and not from a
 // point in its plane.
-bool sees(const glm::dvec3& normal, const glm::dvec3& toCenter, VkBool32 twoSided)
+bool seesFlatLight(const glm::dvec3& normal, const glm::dvec3& toCenter, VkBool32 twoSided)
 {
     const double height = -glm::dot(normal, toCenter);
     return twoSided ? height != 0 : height > 0;
@@ -111,7 +111,7 @@ LightResponse truthResponse(const SurfacePoint& surface, double alpha, const Cnd
         return truthOfTube(surface, alpha, light, toCenter, relative);
     case CND_LIGHT_RECTANGLE: {
         const glm::dvec3 u = vec3(light.axisU), v = vec3(light.axisV);
-        if (!sees(glm::cross(u, v), toCenter, light.twoSided))
+        if (!seesFlatLight(glm::cross(u, v), toCenter, light.twoSided))
             return {};
         const std::array<glm::dvec3, 4> corners = {toCenter - u - v, toCenter + u - v,
                                                    toCenter + u + v, toCenter - u + v};
@@ -119,14 +119,15 @@ LightResponse truthResponse(const SurfacePoint& surface, double alpha, const Cnd
                               relative);
     }
     case CND_LIGHT_POLYGON: {
-        if (!sees(glm::cross(vec3(light.axisU), vec3(light.axisV)), toCenter, light.twoSided))
+        if (!seesFlatLight(glm::cross(vec3(light.axisU), vec3(light.axisV)), toCenter,
+                           light.twoSided))
             return {};
         return truthOfOutline(surface, alpha, *polygonOutline(polygonCorners(light, toCenter)),
                               relative);
     }
     case CND_LIGHT_DISC: {
         const glm::dvec3 normal = glm::normalize(vec3(light.direction));
-        if (!sees(normal, toCenter, light.twoSided))
+        if (!seesFlatLight(normal, toCenter, light.twoSided))
             return {};
         return truthOfOutline(surface, alpha, *discOutline(toCenter, normal, light.radius),
                               relative);

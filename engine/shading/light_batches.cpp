@@ -16,7 +16,7 @@ uint32_t loopIterations(uint32_t lightType, CndSpecularMethod method, uint32_t s
     static constexpr uint32_t iterationsOfFamilies[] = {CND_LIGHT_FAMILIES(X)};
 #undef X
     // Each sample of a polygon looks for its triangle.
-    const uint32_t perSample = has(lightType, gpu::LIGHT_HAS_CORNERS) ? gpu::MAX_CORNERS : 1;
+    const uint32_t perSample = hasField(lightType, gpu::LIGHT_HAS_CORNERS) ? gpu::MAX_CORNERS : 1;
     return iterationsOfFamilies[familyOf(lightType, method)] +
            (method == CND_SPECULAR_SAMPLED ? perSample * sampleCount : 0);
 }

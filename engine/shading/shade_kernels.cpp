@@ -83,9 +83,9 @@ uint32_t ShadeKernels::add(uint32_t lightTypes, uint32_t methods, uint32_t shadi
     const Running running(*this, request);
     uint32_t created = 0;
     for (const Job& job : running.jobs)
-        if (run(job))
+        if (runJob(job))
             created |= 1u << job.lightType;
-    keep(request, running.jobs);
+    publish(request, running.jobs);
     return created;
 }
 
@@ -111,7 +111,7 @@ std::vector<ShadeKernels::Job> ShadeKernels::jobsOf(const Request& request) cons
 }
 
 // Lets frames and later requests know of a request all of whose jobs have been done.
-void ShadeKernels::keep(const Request& request, const std::vector<Job>& jobs)
+void ShadeKernels::publish(const Request& request, const std::vector<Job>& jobs)
 {
     const std::lock_guard lock(mutex_);
     for (const Job& job : jobs)
@@ -146,7 +146,7 @@ void ShadeKernels::addJobs(std::vector<Job>& jobs, uint32_t lightType, CndSpecul
 }
 
 // Returns false if the job has been done, by this or by another thread.
-bool ShadeKernels::run(const Job& job)
+bool ShadeKernels::runJob(const Job& job)
 {
     Slot& slot = slots_[job.lightType][job.method];
     if (slot.made.load() & job.bit())

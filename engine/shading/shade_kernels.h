@@ -99,8 +99,8 @@ private:
     void addJobs(std::vector<Job>& jobs, uint32_t lightType, CndSpecularMethod method,
                  uint32_t shading) const;
     std::vector<Job> jobsOf(const Request& request) const;
-    void keep(const Request& request, const std::vector<Job>& jobs);
-    bool run(const Job& job);
+    void publish(const Request& request, const std::vector<Job>& jobs);
+    bool runJob(const Job& job);
     static std::array<const gpu::Spirv*, 2> kernelsOf(const Job& job);
     Variant make(const Job& job) const;
     template <typename Params>

@@ -89,7 +89,7 @@ struct Image {
     const char* takenBy;
 };
 
-const ColourFormat* find(const gpu::Device& device, const char* image, VkFormat format)
+const ColourFormat* findColourFormat(const gpu::Device& device, const char* image, VkFormat format)
 {
     if (format == VK_FORMAT_UNDEFINED)
         return nullptr;
@@ -192,7 +192,7 @@ void checkDepth(const gpu::Device& device, const CndGBufferDesc& d)
         requireSampled(device, "depthFormat", d.depthFormat);
         return;
     }
-    const ColourFormat& format = *find(device, "depth", d.depthFormat);
+    const ColourFormat& format = *findColourFormat(device, "depth", d.depthFormat);
     if (format.numbers == Numbers::Encoded)
         fail(std::string("depthFormat ") + format.name() + " decodes depths as colours");
     const bool positions = d.depthKind != CND_DEPTH_LINEAR;
@@ -219,7 +219,7 @@ void checkGBuffer(const gpu::Device& device, CndGBufferLayout layout, const CndG
                             d.normalEncoding == CND_NORMAL_OCTAHEDRAL_SNORM;
     const bool specularColour = d.reflectance == CND_REFLECTANCE_SPECULAR;
     const auto image = [&](const char* name, VkFormat format, uint32_t taken, const char* takenBy) {
-        return Image{name, format, find(device, name, format), taken, takenBy};
+        return Image{name, format, findColourFormat(device, name, format), taken, takenBy};
     };
     const Image images[3] = {
         image("normalRoughness", d.normalRoughnessFormat, octahedral ? 2 : 3, "the normal"),

@@ -47,7 +47,7 @@ const BuiltIn builtIn[] = {
     gpu::failArgument("CndHostKernels: " + sentence);
 }
 
-const gpu::Spirv& find(const CndKernelCode& code)
+const gpu::Spirv& findBuiltIn(const CndKernelCode& code)
 {
     if (!code.name || !code.words)
         failKernels("the name or the words of a kernel are null");
@@ -66,7 +66,7 @@ HostKernels::HostKernels(const CndHostKernels& given, CndGBufferLayout layout)
     if (given.count && !given.kernels)
         failKernels("kernels is null but count is " + std::to_string(given.count));
     for (const CndKernelCode& code : std::span(given.kernels, given.count)) {
-        const gpu::Spirv& replaced = find(code);
+        const gpu::Spirv& replaced = findBuiltIn(code);
         std::vector<uint32_t> words(code.words, code.words + code.wordCount);
         gpu::Reflection reflection = gpu::reflect({code.name, words});
         const bool usesSet = std::exchange(reflection.usesHostSet, false);

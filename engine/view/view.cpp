@@ -21,7 +21,7 @@ uint64_t join(glm::uvec2 lowHigh)
     return uint64_t(lowHigh.y) << 32 | lowHigh.x;
 }
 
-CndLightingViewDesc checked(const gpu::Device& device, CndLightingViewDesc desc)
+CndLightingViewDesc checkedDesc(const gpu::Device& device, CndLightingViewDesc desc)
 {
     if (desc.structSize != sizeof desc)
         gpu::failArgument("CndLightingViewDesc: structSize is " + std::to_string(desc.structSize) +
@@ -45,7 +45,7 @@ CndLightingViewDesc checked(const gpu::Device& device, CndLightingViewDesc desc)
 
 View::View(const Module& module, const CndLightingViewDesc& desc)
     : module_(module),
-      desc_(checked(module.device, desc)),
+      desc_(checkedDesc(module.device, desc)),
       timer_(module.device, "lighting", module.desc.framesInFlight, module.desc.timestamps),
       clusters_(module.device, module.kernels.clusters, module.recordings,
                 {.slots = module.desc.framesInFlight,
@@ -161,7 +161,7 @@ CndResult View::stats(uint32_t slot, CndLightingStats& out) const noexcept
     return timer_.read(slot, out.kernelTimes, out.kernelTimeCount);
 }
 
-void View::tell(const CndLightingStats& stats) const noexcept
+void View::reportProblems(const CndLightingStats& stats) const noexcept
 {
     const gpu::Device& device = module_.device;
     if (stats.unlistedClusters && !toldUnlisted_) {

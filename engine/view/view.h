@@ -27,7 +27,7 @@ public:
 
     CndResult stats(uint32_t slot, CndLightingStats& stats) const noexcept;
     // Sends the host a message, once, for each statistic that shows a problem.
-    void tell(const CndLightingStats& stats) const noexcept;
+    void reportProblems(const CndLightingStats& stats) const noexcept;
     VkDescriptorSet forwardSet(uint32_t slot) const; // throws gpu::Failure if there is none
     // Makes room for a set of lights before the module takes it. Throws gpu::Failure if that fails.
     void makeRoom(uint32_t lightCapacity, LightTypeCounts types);
@@ -100,8 +100,8 @@ private:
     ForwardLights forward_;
     std::optional<Influence> influence_; // CndLightingDesc::influenceByError
     ListsKey lists_;                     // what the lists of the last frame were made for
-    // What tell() has already sent a message about: clusters without lists, and rejected lights of
-    // the light set of this number.
+    // What reportProblems() has already sent a message about: clusters without lists, and rejected
+    // lights of the light set of this number.
     mutable bool toldUnlisted_ = false;
     mutable uint64_t toldRejected_ = 0;
 };

@@ -96,7 +96,7 @@ TEST(Reach, ReplacedLightsWidenTheBox)
     CndLight lights[] = {{.type = CND_LIGHT_POINT, .position = {1, 2, 3}, .influenceRadius = 1},
                          {.type = CND_LIGHT_POINT, .position = {-5, 2, 9}, .influenceRadius = 2}};
     InfluenceBoxes boxes = influenceBoxesOf({lights, 1});
-    widen(boxes, influenceBoxesOf({lights + 1, 1}));
+    widenBoxes(boxes, influenceBoxesOf({lights + 1, 1}));
     const InfluenceBox both = influenceBoxesOf(lights)[CND_LIGHT_POINT];
     EXPECT_EQ(boxes[CND_LIGHT_POINT].low, both.low);
     EXPECT_EQ(boxes[CND_LIGHT_POINT].high, both.high);
@@ -112,7 +112,7 @@ TEST(Reach, LayersAreThoseOfAnyLight)
     InfluenceBoxes boxes = influenceBoxesOf({lights, 1});
     EXPECT_EQ(boxes[CND_LIGHT_POINT].layers, 1u);
     EXPECT_EQ(boxes[CND_LIGHT_DIRECTIONAL].layers, 0u);
-    widen(boxes, influenceBoxesOf(lights));
+    widenBoxes(boxes, influenceBoxesOf(lights));
     EXPECT_EQ(boxes[CND_LIGHT_POINT].layers, 5u);
     EXPECT_EQ(boxes[CND_LIGHT_DIRECTIONAL].layers, (1u << CND_LAYER_COUNT) - 1);
 }

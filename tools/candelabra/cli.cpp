@@ -27,7 +27,7 @@ namespace candelabra::app
 namespace
 {
 
-int complain(int exitCode, const std::string& sentence) noexcept
+int printError(int exitCode, const std::string& sentence) noexcept
 {
     std::fprintf(stderr, "candelabra: %s\n", sentence.c_str());
     return exitCode;
@@ -41,7 +41,7 @@ void setUpLogging(bool quiet)
     spdlog::set_default_logger(logger);
 }
 
-void describe(CLI::App& app, ProgramContext& context)
+void addProgramOptions(CLI::App& app, ProgramContext& context)
 {
     app.require_subcommand(1);
     app.fallthrough(); // --quiet may stand after the command, too
@@ -234,7 +234,7 @@ int parseAndRun(int typedCount, const char* const* typed)
     ProgramContext context{.commandLine = commandLine(argc, argv)};
     CLI::App app("Lights scenes with thousands of physically sized lights.", "candelabra");
     Run run;
-    describe(app, context);
+    addProgramOptions(app, context);
     addRenderCommand(app, run);
     addStressCommand(app, run);
     addProfileCommand(app, run);
@@ -251,13 +251,13 @@ int parseAndRun(int typedCount, const char* const* typed)
         app.parse(argc, argv);
     } catch (const CLI::Success& help) { // --help, --version
         if (const Named named = namedCommands(app, argc, argv); named.unknown)
-            return complain(exitUsage, commandSentence(named, help));
+            return printError(exitUsage, commandSentence(named, help));
         std::ostringstream text;
         app.exit(help, text);
         writeText("-", text.str());
         return exitOk;
     } catch (const CLI::ParseError& error) {
-        return complain(exitUsage, parseSentence(app, argc, argv, error));
+        return printError(exitUsage, parseSentence(app, argc, argv, error));
     }
     refuseEmptyValues(app);
     setUpLogging(context.quiet);
@@ -271,15 +271,15 @@ int runProgram(int argc, const char* const* argv) noexcept
     try {
         return parseAndRun(argc, argv);
     } catch (const SceneError& error) {
-        return complain(exitUsage, error.what());
+        return printError(exitUsage, error.what());
     } catch (const UsageError& error) {
-        return complain(exitUsage, error.what());
+        return printError(exitUsage, error.what());
     } catch (const gpu::Failure& failure) {
-        return complain(exitFailed, failure.message);
+        return printError(exitFailed, failure.message);
     } catch (const std::bad_alloc&) {
-        return complain(exitFailed, "out of memory");
+        return printError(exitFailed, "out of memory");
     } catch (const std::exception& error) {
-        return complain(exitFailed, error.what());
+        return printError(exitFailed, error.what());
     }
 }
 

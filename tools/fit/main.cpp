@@ -75,7 +75,7 @@ void describeConic(CLI::App& app, fit::ConicSettings& s)
     conic->add_option("--json", s.json, "file to write all results to, as JSON");
 }
 
-int complain(int exitCode, const char* sentence)
+int printError(int exitCode, const char* sentence)
 {
     std::fprintf(stderr, "candelabra_fit: %s\n", sentence);
     return exitCode;
@@ -96,8 +96,8 @@ int main(int argc, char** argv)
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? app::exitOk : app::exitUsage;
     } catch (const app::UsageError& error) {
-        return complain(app::exitUsage, error.what());
+        return printError(app::exitUsage, error.what());
     } catch (const std::exception& error) {
-        return complain(app::exitFailed, error.what());
+        return printError(app::exitFailed, error.what());
     }
 }

@@ -37,7 +37,7 @@ struct ProfileArguments {
 };
 
 // Returns the frame's options after those in `text` have replaced options of the command line.
-FrameOptions variant(const FrameArguments& base, const std::string& text)
+FrameOptions variantOptions(const FrameArguments& base, const std::string& text)
 {
     FrameArguments frame = base;
     CLI::App app;
@@ -71,7 +71,7 @@ struct ProfilePlan {
     ProfileSettings settings;
 };
 
-ProfilePlan plan(const ProfileArguments& a)
+ProfilePlan planProfile(const ProfileArguments& a)
 {
     for (const auto& [option, file] : {std::pair{"--csv", &a.csv}, {"--json", &a.json}})
         if (!file->empty())
@@ -119,13 +119,13 @@ ProfilePlan plan(const ProfileArguments& a)
                         a.frames, minPairs));
     p.names = {"A", "B"};
     for (const std::string& text : a.ab)
-        p.settings.variants.push_back(variant(a.frame, text));
+        p.settings.variants.push_back(variantOptions(a.frame, text));
     return p;
 }
 
-Json describe(const ProgramContext& program, const ProfileArguments& a, const ProfilePlan& p,
-              const VulkanContext& context, const Scene& scene, const Renderer& renderer,
-              const Profile& profile)
+Json profileJson(const ProgramContext& program, const ProfileArguments& a, const ProfilePlan& p,
+                 const VulkanContext& context, const Scene& scene, const Renderer& renderer,
+                 const Profile& profile)
 {
     Json variants = Json::array();
     for (size_t v = 0; v < p.names.size(); ++v) {
@@ -157,7 +157,7 @@ Json describe(const ProgramContext& program, const ProfileArguments& a, const Pr
 }
 
 // `all` is the number of triangles of all instances.
-std::string text(const ProfileArguments& a, const Profile& profile, uint64_t all)
+std::string profileText(const ProfileArguments& a, const Profile& profile, uint64_t all)
 {
     const std::vector<uint64_t>& counts = profile.drawnTriangles; // one per variant
     std::string drawn = fmt::format("The first frame draws {}", grouped(counts.front()));
@@ -180,7 +180,7 @@ std::string text(const ProfileArguments& a, const Profile& profile, uint64_t all
 
 int profile(const ProgramContext& program, const ProfileArguments& a)
 {
-    ProfilePlan p = plan(a);
+    ProfilePlan p = planProfile(a);
     a.scene.warnOfIdleOptions(p.scene.lights);
     a.device.requireRoomFor(p.scene.lights.value_or(0));
     const Scene scene = loadScene(a.scene.scene, p.scene);
@@ -220,7 +220,7 @@ int profile(const ProgramContext& program, const ProfileArguments& a)
                      counted(result.warmUpRounds, "frame"));
     const bool toTerminal = a.json != "-" && a.csv != "-";
     if (toTerminal)
-        writeText("-", text(a, result, renderer.triangleCount()));
+        writeText("-", profileText(a, result, renderer.triangleCount()));
     Json costs;
     if (!a.lightCosts.empty()) {
         const size_t count = unsignedOption("--light-costs", a.lightCosts, 1, 1'000'000);
@@ -233,7 +233,7 @@ int profile(const ProgramContext& program, const ProfileArguments& a)
     if (!a.csv.empty())
         writeText(a.csv, toCsv(p.names, result.series));
     if (!a.json.empty()) {
-        Json run = describe(program, a, p, context, scene, renderer, result);
+        Json run = profileJson(program, a, p, context, scene, renderer, result);
         if (!costs.is_null())
             run["lightCosts"] = costs;
         writeJson(a.json, a.append ? withRun(a.json, run) : run);

@@ -53,7 +53,7 @@ struct RenderPlan {
 };
 
 // Returns the same path for the same file, however its path is spelled.
-std::filesystem::path identity(const std::string& path)
+std::filesystem::path canonicalPath(const std::string& path)
 {
     std::error_code unknown;
     const std::filesystem::path out = weakly_canonical(std::filesystem::absolute(path), unknown);
@@ -79,13 +79,13 @@ void requireOutputs(const RenderArguments& a)
     for (const std::string& output : a.outputs) {
         requireImageExtension("-o", output);
         requireWritable("-o", isNumbered(output) ? numberedName("-o", output, 0) : output);
-        if (!files.insert(identity(output)).second)
+        if (!files.insert(canonicalPath(output)).second)
             throw UsageError("-o " + output + ": this file is written twice");
     }
     if (a.json.empty())
         return;
     requireWritable("--json", a.json);
-    if (a.json != "-" && files.count(identity(a.json)))
+    if (a.json != "-" && files.count(canonicalPath(a.json)))
         throw UsageError("--json " + a.json + ": -o writes this file");
 }
 
@@ -142,7 +142,7 @@ float bloomOf(const RenderArguments& a)
     return float(share);
 }
 
-RenderPlan plan(const RenderArguments& a)
+RenderPlan planRender(const RenderArguments& a)
 {
     if (a.outputs.empty() && a.json.empty() && a.pick.empty() && !a.explain)
         throw UsageError("render: there is nothing to write; give -o FILE (.png, .exr, .hdr, "
@@ -174,10 +174,10 @@ RenderPlan plan(const RenderArguments& a)
             .pick = pickedPixel(a)};
 }
 
-Json describe(const ProgramContext& program, const RenderArguments& a, const RenderPlan& p,
-              const VulkanContext& context, const Scene& scene, Renderer& renderer,
-              const MeasuredFrames& frames, const std::optional<Pick>& picked,
-              const std::optional<InfluenceCheck>& cut)
+Json renderJson(const ProgramContext& program, const RenderArguments& a, const RenderPlan& p,
+                const VulkanContext& context, const Scene& scene, Renderer& renderer,
+                const MeasuredFrames& frames, const std::optional<Pick>& picked,
+                const std::optional<InfluenceCheck>& cut)
 {
     const PixelSize size = renderer.size();
     FrameOptions again = p.frame;
@@ -206,9 +206,9 @@ Json describe(const ProgramContext& program, const RenderArguments& a, const Ren
 }
 
 // Prints and writes what is asked about the last frame, whose options are those of the plan.
-int examine(const ProgramContext& program, const RenderArguments& a, const RenderPlan& p,
-            const VulkanContext& context, const Scene& scene, Renderer& renderer,
-            const MeasuredFrames& frames)
+int reportLastFrame(const ProgramContext& program, const RenderArguments& a, const RenderPlan& p,
+                    const VulkanContext& context, const Scene& scene, Renderer& renderer,
+                    const MeasuredFrames& frames)
 {
     std::optional<Pick> picked;
     if (p.pick) {
@@ -227,13 +227,13 @@ int examine(const ProgramContext& program, const RenderArguments& a, const Rende
     if (a.json != "-" && !program.quiet && frames.times.frames())
         writeText("-", passTable(frames.times));
     if (!a.json.empty())
-        writeJson(a.json, describe(program, a, p, context, scene, renderer, frames, picked, cut));
+        writeJson(a.json, renderJson(program, a, p, context, scene, renderer, frames, picked, cut));
     return printValidationMessages(context) ? exitFailed : exitOk;
 }
 
 // Says what will be rendered. `onCpu`: a picture has one sample because the device is a CPU.
-void announce(const Scene& scene, PixelSize size, const VulkanContext& context, uint32_t samples,
-              bool onCpu)
+void printScene(const Scene& scene, PixelSize size, const VulkanContext& context, uint32_t samples,
+                bool onCpu)
 {
     spdlog::info("{}: {}, {}, {}x{}, {}, on {}", scene.name, counted(scene.lights.size(), "light"),
                  counted(scene.instances.size() + scene.analyticObjects.size(), "object"),
@@ -283,7 +283,7 @@ void writePictures(const RenderArguments& a, const RenderPlan& p, const VulkanCo
 
 int render(const ProgramContext& program, const RenderArguments& a)
 {
-    RenderPlan p = plan(a);
+    RenderPlan p = planRender(a);
     a.scene.warnOfIdleOptions(p.scene.lights);
     a.device.requireRoomFor(p.scene.lights.value_or(0));
     const Scene scene = loadScene(a.scene.scene, p.scene);
@@ -304,7 +304,7 @@ int render(const ProgramContext& program, const RenderArguments& a)
     const VulkanContext context(a.device.contextOptions());
     const bool isGpu = context.info().type != VK_PHYSICAL_DEVICE_TYPE_CPU;
     p.counts.samples = p.samples.value_or(isGpu ? pictureSamples : 1);
-    announce(scene, size, context, p.counts.samples, !p.samples && !isGpu);
+    printScene(scene, size, context, p.counts.samples, !p.samples && !isGpu);
     Renderer renderer(context, scene,
                       {.size = size,
                        .gbufferLayout = p.gbufferLayout,
@@ -319,7 +319,7 @@ int render(const ProgramContext& program, const RenderArguments& a)
     // What follows looks at the last frame.
     p.frame.camera = cameraAt(first, p.path, p.counts.measured - 1, p.counts.measured);
     p.frame.time += moving ? p.interval * (p.counts.measured - 1) : 0;
-    return examine(program, a, p, context, scene, renderer, frames);
+    return reportLastFrame(program, a, p, context, scene, renderer, frames);
 }
 
 // Adds the options of how pictures are made of frames.

@@ -24,7 +24,7 @@ glm::vec3 withUnitLuminance(const glm::vec3& rgb)
     return rgb / glm::dot(rgb, glm::vec3(0.2126f, 0.7152f, 0.0722f));
 }
 
-std::string number(double value)
+std::string shortNumber(double value)
 {
     char text[32];
     std::snprintf(text, sizeof(text), "%g", value);
@@ -49,9 +49,10 @@ OverlapScale findScale(const Scene& scene, const std::vector<LightReach>& reache
     if (found.scale == 0 && !options.overlaps)
         found = scaleForOverlaps(samples, reaches, 0.5 * found.reachable);
     if (found.scale == 0) {
-        throw SceneError(scene.name + ": overlaps: a mean of " + number(wanted) +
+        throw SceneError(scene.name + ": overlaps: a mean of " + shortNumber(wanted) +
                          " lights per pixel cannot be reached with " +
-                         counted(reaches.size(), "light") + ", at most " + number(found.reachable) +
+                         counted(reaches.size(), "light") + ", at most " +
+                         shortNumber(found.reachable) +
                          " of them can light the average visible point");
     }
     return found;
@@ -143,10 +144,10 @@ void checkLightOptions(const std::string& name, uint32_t count, const SceneOptio
     const double overlaps = *options.overlaps;
     if (!std::isfinite(overlaps) || overlaps <= 0) {
         throw SceneError(name + ": overlaps: must be a finite number above 0, not " +
-                         number(overlaps));
+                         shortNumber(overlaps));
     }
     if (count > 0 && overlaps > count) {
-        throw SceneError(name + ": overlaps: " + number(overlaps) + " is more than the " +
+        throw SceneError(name + ": overlaps: " + shortNumber(overlaps) + " is more than the " +
                          counted(count, "light"));
     }
 }
@@ -191,7 +192,7 @@ bool standsInFront(const Scene& scene, const LightSite& site)
 
 // Makes bounds that are thinner than `least` along some axis thicker by that much, along y only
 // upwards.
-void thicken(Bounds& bounds, double least)
+void thickenBounds(Bounds& bounds, double least)
 {
     for (int axis = 0; axis < 3; ++axis) {
         if (bounds.max[axis] - bounds.min[axis] >= least)
@@ -216,9 +217,9 @@ void addRandomLights(Scene& scene, const SceneOptions& options, float edgeIllumi
         throw SceneError(scene.name +
                          ": lights: random lights need meshes that span at least "
                          "a micrometre, these span " +
-                         number(diagonal) + " m");
+                         shortNumber(diagonal) + " m");
     }
-    thicken(bounds, 0.1 * diagonal);
+    thickenBounds(bounds, 0.1 * diagonal);
     const glm::dvec3 size = bounds.max - bounds.min;
     if (scene.lights.empty())
         scene.lightOrigin = 0.5 * (bounds.min + bounds.max);

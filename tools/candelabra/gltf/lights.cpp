@@ -107,7 +107,7 @@ std::optional<GivenRadius> givenRadius(const GltfDocument& document, const GltfP
 }
 
 // Sets the light's direction to the node's -z axis. Returns false if that axis has length 0.
-bool direction(const glm::dmat4& worldFromNode, CndLight& light)
+bool setDirection(const glm::dmat4& worldFromNode, CndLight& light)
 {
     const glm::dvec3 z(worldFromNode[2]);
     const double length = glm::length(z);
@@ -156,7 +156,7 @@ void addPunctual(const GltfDocument& document, size_t index, const GltfPlacedNod
     light.type = source.type == "point"  ? CND_LIGHT_POINT
                  : source.type == "spot" ? CND_LIGHT_SPOT
                                          : CND_LIGHT_DIRECTIONAL;
-    if (light.type != CND_LIGHT_POINT && !direction(placed.worldFromNode, light)) {
+    if (light.type != CND_LIGHT_POINT && !setDirection(placed.worldFromNode, light)) {
         document.warn(element, "is scaled to zero size by its node and is left out");
         return;
     }

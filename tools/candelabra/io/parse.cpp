@@ -11,7 +11,7 @@ namespace
 {
 
 template <typename T>
-std::optional<T> whole(std::string_view text)
+std::optional<T> parseWhole(std::string_view text)
 {
     T value{};
     const char* end = text.data() + text.size();
@@ -25,14 +25,14 @@ std::optional<T> whole(std::string_view text)
 
 std::optional<uint32_t> parseUnsigned(std::string_view text)
 {
-    return whole<uint32_t>(text);
+    return parseWhole<uint32_t>(text);
 }
 
 std::optional<double> parseNumber(std::string_view text)
 {
     if (text.size() > 1 && text[0] == '+' && text[1] != '-') // from_chars accepts no plus sign
         text.remove_prefix(1);
-    const auto value = whole<double>(text);
+    const auto value = parseWhole<double>(text);
     return value && std::isfinite(*value) ? value : std::nullopt;
 }
 

@@ -18,7 +18,7 @@ double middleOf(const std::vector<double>& sorted)
     return n % 2 ? sorted[n / 2] : (sorted[n / 2 - 1] + sorted[n / 2]) / 2;
 }
 
-double rank(const std::vector<double>& sorted, double share)
+double nearestRank(const std::vector<double>& sorted, double share)
 {
     const size_t at = size_t(std::ceil(share * double(sorted.size())));
     return sorted[std::max<size_t>(at, 1) - 1];
@@ -57,10 +57,10 @@ Spread spreadOf(std::vector<double> values)
     const double deviation = n > 1 ? std::sqrt(squares / (n - 1)) : 0;
     return {.min = values.front(),
             .median = middleOf(values),
-            .lowerQuartile = rank(values, 0.25),
-            .upperQuartile = rank(values, 0.75),
-            .p95 = rank(values, 0.95),
-            .p99 = rank(values, 0.99),
+            .lowerQuartile = nearestRank(values, 0.25),
+            .upperQuartile = nearestRank(values, 0.75),
+            .p95 = nearestRank(values, 0.95),
+            .p99 = nearestRank(values, 0.99),
             .cv = mean > 0 ? deviation / mean : 0};
 }
 

@@ -9,7 +9,7 @@ namespace candelabra::app
 namespace
 {
 
-std::string compared(const std::string& word)
+std::string comparableForm(const std::string& word)
 {
     std::string out = word.substr(std::min(word.find_first_not_of('-'), word.size()));
     for (char& c : out)
@@ -42,18 +42,18 @@ size_t edits(const std::string& a, const std::string& b)
 std::string closestWord(const std::string& word, const std::vector<std::string>& known)
 {
     constexpr size_t longest = 64; // no option or command is as long, and a typed text may be
-    const std::string wanted = compared(word);
+    const std::string wanted = comparableForm(word);
     if (wanted.size() > longest)
         return "";
     size_t fewest = wanted.size() / 3 + 1, beginnings = 0;
     std::string best, begun;
     for (const std::string& candidate : known) {
-        const size_t count = edits(wanted, compared(candidate));
+        const size_t count = edits(wanted, comparableForm(candidate));
         if (count < fewest) {
             fewest = count;
             best = candidate;
         }
-        if (wanted.size() > 1 && compared(candidate).starts_with(wanted)) {
+        if (wanted.size() > 1 && comparableForm(candidate).starts_with(wanted)) {
             begun = candidate;
             ++beginnings;
         }

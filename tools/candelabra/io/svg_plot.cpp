@@ -167,7 +167,7 @@ struct Label {
 };
 
 // Moves labels apart until none overlaps, keeping their order and the middle of each cluster.
-void spread(std::vector<Label>& labels)
+void spreadLabels(std::vector<Label>& labels)
 {
     constexpr double gap = 18; // pixels between baselines of 13 px text
     std::stable_sort(labels.begin(), labels.end(),
@@ -210,7 +210,7 @@ std::string lines(const std::vector<PlotSeries>& series, const Axis& x, const Ax
         out += markers;
         labels.push_back({lastY, series[i].name, colour, markerOf(i)});
     }
-    spread(labels);
+    spreadLabels(labels);
     for (const Label& label : labels)
         out += marker(label.shape, width - right + 14, label.y, label.colour) +
                fmt::format("<text x=\"{}\" y=\"{:.1f}\" fill=\"{}\">{}</text>\n",

@@ -37,7 +37,7 @@ glm::dvec3 directionOf(const SoftLight& light)
             std::cos(light.azimuth) * std::cos(light.elevation)};
 }
 
-double smooth(double from, double to, double x)
+double smoothStep(double from, double to, double x)
 {
     const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
     return t * t * (3 - 2 * t);
@@ -48,11 +48,11 @@ double skyLuminance(const glm::dvec3& direction)
     const double up = direction.y;
     // The floor is darkest straight below, and the ceiling a little brighter than the walls. All
     // are grey, so that both white and black objects stand out from them.
-    double out = 0.13 + 0.14 * smooth(-0.7, 0.05, up) + 0.05 * smooth(0.0, 0.9, up);
+    double out = 0.13 + 0.14 * smoothStep(-0.7, 0.05, up) + 0.05 * smoothStep(0.0, 0.9, up);
     for (const SoftLight& light : softLights) {
         const double angle =
             std::acos(std::clamp(glm::dot(directionOf(light), direction), -1.0, 1.0));
-        out += light.luminance * (1 - smooth(0.35 * light.halfAngle, light.halfAngle, angle));
+        out += light.luminance * (1 - smoothStep(0.35 * light.halfAngle, light.halfAngle, angle));
     }
     return out;
 }

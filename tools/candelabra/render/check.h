@@ -18,7 +18,7 @@ using gpu::check;
 
 // Returns the value of a result of the engine, or throws its error as a RunError.
 template <typename T>
-T take(Result<T> result)
+T valueOrThrow(Result<T> result)
 {
     if (!result)
         throw RunError(result.error().message);

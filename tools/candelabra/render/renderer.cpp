@@ -36,9 +36,9 @@ gpu::Image createDisplay(const gpu::Device& device, PixelSize size)
 }
 
 template <typename Stats>
-Stats finished(Result<std::optional<Stats>> result)
+Stats finishedStats(Result<std::optional<Stats>> result)
 {
-    const std::optional<Stats> stats = take(std::move(result));
+    const std::optional<Stats> stats = valueOrThrow(std::move(result));
     if (!stats)
         throw RunError("the statistics of a finished frame are not there");
     return *stats;
@@ -86,11 +86,11 @@ uint32_t countPipelines(const VulkanContext& context, const Scene& scene, const 
         const gpu::Device raster(planning.desc(), gpu::rasterPass);
         gbuffer::GBuffer(raster, gbufferDesc(o)).prepare(geometry);
     }
-    take(Lighting::create(planning.desc(), lightingDesc(scene, o)));
-    take(Exposure::create(planning.desc(), exposureDesc(o)));
+    valueOrThrow(Lighting::create(planning.desc(), lightingDesc(scene, o)));
+    valueOrThrow(Exposure::create(planning.desc(), exposureDesc(o)));
     if (scene.environment)
-        take(Environment::create(planning.desc(), {.framesInFlight = o.framesInFlight,
-                                                   .gbufferLayout = o.gbufferLayout}));
+        valueOrThrow(Environment::create(planning.desc(), {.framesInFlight = o.framesInFlight,
+                                                           .gbufferLayout = o.gbufferLayout}));
     return planning.pipelineCount();
 }
 
@@ -157,7 +157,7 @@ uint32_t lightTypesOf(const Scene& scene)
 
 // Everything that decides the lit image of one scene at one size: two frames with equal values have
 // the same image.
-struct Lit {
+struct LitImageKey {
     Camera camera;
     FrameSample sample;
     double lightTime;
@@ -170,8 +170,8 @@ struct Lit {
     float influenceError, influenceExposure; // of CND_INFLUENCE_BY_ERROR
     CndToneMap influenceToneMap;
 
-    bool operator==(const Lit&) const = default;
-    bool sameSurfaces(const Lit& other) const
+    bool operator==(const LitImageKey&) const = default;
+    bool sameSurfaces(const LitImageKey& other) const
     {
         return camera == other.camera && sample == other.sample &&
                lightsVisible == other.lightsVisible && levels == other.levels;
@@ -206,7 +206,7 @@ struct Renderer::State {
         emitterLayers;           // layers of the emitters in the G-buffer; empty: no lights yet
     bool culledTriangles = true; // FrameOptions::cullTriangles of the last recorded frame
     double lightTime = 0;
-    std::optional<Lit> drawn;                 // what the images show
+    std::optional<LitImageKey> drawn;         // what the images show
     std::optional<HeatMapPass> heatMaps;      // created for the first frame that shows a heat map
     std::optional<Accumulation> accumulation; // created for the first frame of several samples
     std::optional<Bloom> bloom;               // created for the first frame that has it
@@ -238,7 +238,7 @@ struct Renderer::State {
     void setLights(double time);
     void moveLights(double time);
     void createSized();
-    Lit litBy(uint32_t slot, const FrameOptions& frame) const;
+    LitImageKey litImageKey(uint32_t slot, const FrameOptions& frame) const;
     CndInfluence influenceOf(uint32_t slot, const FrameOptions& frame) const;
     CndExposureSettings exposureOf(const FrameOptions& frame) const;
     std::vector<CndPassPlan> plan(uint32_t slot, const FrameStats& stats) const;
@@ -271,7 +271,7 @@ void Renderer::State::setLights(double time)
     lightTime = time;
     drawn.reset();
     const glm::dvec3& at = scene->lightOrigin;
-    take(lighting.setLights(lights, {at.x, at.y, at.z}));
+    valueOrThrow(lighting.setLights(lights, {at.x, at.y, at.z}));
     lightTypes |= lightTypesOf(*scene);
     emitterLayers.reset();
 }
@@ -301,7 +301,7 @@ void Renderer::State::createSized()
     // 64 MiB, the default of the library, are 32 bytes for each of 1920x1080 pixels. Larger images
     // have more lists, and clusters without room for one take much longer.
     const VkDeviceSize lists = std::max<VkDeviceSize>(64 << 20, 32ull * width * height);
-    view = take(lighting.createView(
+    view = valueOrThrow(lighting.createView(
         {.maxWidth = width,
          .maxHeight = height,
          .listBudget = std::min<VkDeviceSize>(lists, device.limits.maxStorageBufferRange)}));
@@ -319,8 +319,8 @@ Renderer::Renderer(const VulkanContext& context, const Scene& scene, const Rende
     for (uint32_t method = 0; method < CND_SPECULAR_METHOD_COUNT; ++method)
         if (lighting.specularMethods >> method & 1)
             s.shading[method] = options.shading;
-    s.lighting = take(Lighting::create(context.desc(), lighting));
-    s.exposure = take(Exposure::create(context.desc(), exposureDesc(options)));
+    s.lighting = valueOrThrow(Lighting::create(context.desc(), lighting));
+    s.exposure = valueOrThrow(Exposure::create(context.desc(), exposureDesc(options)));
     if (scene.environment)
         s.environment = uploadEnvironment(
             context, *scene.environment,
@@ -351,14 +351,14 @@ void Renderer::prepareToDraw(const FrameOptions& options)
     if (canDraw(options))
         return;
     const uint32_t needed = shadingOf(options);
-    take(state_->lighting.addPipelines(
+    valueOrThrow(state_->lighting.addPipelines(
         {.specularMethods = 1u << options.specular, .shading = needed}));
     state_->shading[options.specular] |= needed;
 }
 
 void Renderer::prepareToLightBy(uint32_t lightTypes)
 {
-    take(state_->lighting.addPipelines({.lightTypes = lightTypes}));
+    valueOrThrow(state_->lighting.addPipelines({.lightTypes = lightTypes}));
     state_->lightTypes |= lightTypes;
 }
 
@@ -430,7 +430,7 @@ void Renderer::State::recordEnvironment(VkCommandBuffer cmd, uint32_t slot,
     out.scale = float(scene->environment->scale);
     out.background = VK_TRUE;
     setEnvironmentRotation(scene->environment->rotation, out.worldFromEnvironment);
-    take(environment.record(cmd, out));
+    valueOrThrow(environment.record(cmd, out));
 }
 
 CndLightingFrame Renderer::State::lightingFrame(uint32_t slot, const FrameOptions& frame) const
@@ -465,11 +465,11 @@ CndInfluence Renderer::State::influenceOf(uint32_t slot, const FrameOptions& fra
     if (e.manual)
         out.exposure = cndExposureFromEv100(e.manualEv100 - e.compensation, e.middleGrey);
     else if (exposedSlots[slot])
-        out.exposure = finished(exposure.stats(slot)).exposure;
+        out.exposure = finishedStats(exposure.stats(slot)).exposure;
     return out;
 }
 
-Lit Renderer::State::litBy(uint32_t slot, const FrameOptions& f) const
+LitImageKey Renderer::State::litImageKey(uint32_t slot, const FrameOptions& f) const
 {
     const CndInfluence influence = influenceOf(slot, f);
     return {f.camera,         f.sample,       lightTime,          f.lightsVisible,
@@ -488,7 +488,7 @@ void Renderer::record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& fr
     prepareToDraw(frame);
     State& s = *state_;
     s.moveLights(frame.time);
-    const Lit lit = s.litBy(slot, frame);
+    const LitImageKey lit = s.litImageKey(slot, frame);
     const bool counts = frame.countPairs || frame.heatMap != HeatMap::None;
     const bool oneSample = frame.sample.count == 1;
     const bool kept = frame.reuse == Reuse::Lighting && oneSample && !counts && s.drawn == lit;
@@ -511,7 +511,7 @@ void Renderer::record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& fr
             lighting.countPairs = VK_TRUE;
             lighting.pairImage = s.heatMaps->pairs();
         }
-        take(s.view.record(cmd, lighting));
+        valueOrThrow(s.view.record(cmd, lighting));
         s.drawn = lit;
         transition(cmd, radiance, computeWrite, computeRead);
     }
@@ -536,7 +536,7 @@ void Renderer::State::recordDisplay(VkCommandBuffer cmd, uint32_t slot, const Fr
     const VkImageView radiance = targets.radiance.view.get();
     if (!unbloomed[slot] && !bloom)
         bloom.emplace(context.device(), options.size, options.framesInFlight);
-    take(exposure.record(
+    valueOrThrow(exposure.record(
         cmd,
         {.frameSlot = slot,
          .width = options.size.width,
@@ -581,7 +581,7 @@ void Renderer::recordBruteRect(VkCommandBuffer cmd, const FrameOptions& frame, c
     prepareToDraw(brute);
     CndLightingFrame lighting = state_->lightingFrame(0, brute);
     lighting.bruteRect = rect;
-    take(state_->view.record(cmd, lighting));
+    valueOrThrow(state_->view.record(cmd, lighting));
 }
 
 void Renderer::recordBruteEnd(VkCommandBuffer cmd)
@@ -598,7 +598,7 @@ void Renderer::setLights(const std::vector<CndLight>& lights)
 {
     const glm::dvec3& at = state_->scene->lightOrigin;
     state_->drawn.reset();
-    take(state_->lighting.setLights(lights, {at.x, at.y, at.z}));
+    valueOrThrow(state_->lighting.setLights(lights, {at.x, at.y, at.z}));
 }
 
 CndLightingFrame Renderer::lightingFrame(uint32_t slot, const FrameOptions& frame) const
@@ -608,7 +608,7 @@ CndLightingFrame Renderer::lightingFrame(uint32_t slot, const FrameOptions& fram
 
 CndLightingStats Renderer::lightingStats(uint32_t slot) const
 {
-    return finished(state_->view.stats(slot));
+    return finishedStats(state_->view.stats(slot));
 }
 
 std::vector<CndPassPlan> Renderer::State::plan(uint32_t slot, const FrameStats& stats) const
@@ -653,7 +653,7 @@ FrameStats Renderer::stats(uint32_t slot) const
         if (state_->gbuffer.times(slot, rows.data(), count))
             addModule(rows.data(), count);
         if (state_->environment.get()) {
-            const CndEnvironmentStats environment = finished(state_->environment.stats(slot));
+            const CndEnvironmentStats environment = finishedStats(state_->environment.stats(slot));
             addModule(environment.kernelTimes, environment.kernelTimeCount);
         }
         const size_t first = out.passes.size();
@@ -668,7 +668,7 @@ FrameStats Renderer::stats(uint32_t slot) const
                 out.stamps += types - 1;
             }
     }
-    out.exposure = finished(state_->exposure.stats(slot));
+    out.exposure = finishedStats(state_->exposure.stats(slot));
     if (!state_->unbloomed[slot] &&
         state_->bloom->timer().read(slot, rows.data(), count) == CND_SUCCESS)
         addModule(rows.data(), count);

@@ -52,10 +52,10 @@ Environment uploadEnvironment(const VulkanContext& context, const SceneEnvironme
                                      radiance.width, radiance.height, context.info().name,
                                      largest));
     Environment out =
-        take(Environment::create(context.desc(), {.framesInFlight = options.framesInFlight,
-                                                  .gbufferLayout = options.gbufferLayout,
-                                                  .cubeSize = cubeSizeFor(radiance),
-                                                  .timestamps = VK_TRUE}));
+        valueOrThrow(Environment::create(context.desc(), {.framesInFlight = options.framesInFlight,
+                                                          .gbufferLayout = options.gbufferLayout,
+                                                          .cubeSize = cubeSizeFor(radiance),
+                                                          .timestamps = VK_TRUE}));
     const gpu::Image image = gpu::createImage(
         device, "environment image", VK_FORMAT_R32G32B32A32_SFLOAT, radiance.width, radiance.height,
         VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, VK_IMAGE_ASPECT_COLOR_BIT);
@@ -67,9 +67,9 @@ Environment uploadEnvironment(const VulkanContext& context, const SceneEnvironme
         vkCmdCopyBufferToImage(cmd, staging.get(), image.image.get(),
                                VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
         transition(cmd, image.image.get(), transferWrite, computeRead);
-        take(out.recordMap(cmd, {.width = radiance.width,
-                                 .height = radiance.height,
-                                 .equirectangular = image.view.get()}));
+        valueOrThrow(out.recordMap(cmd, {.width = radiance.width,
+                                         .height = radiance.height,
+                                         .equirectangular = image.view.get()}));
     });
     return out;
 }

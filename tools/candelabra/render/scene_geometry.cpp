@@ -111,8 +111,8 @@ std::vector<Out> convertAll(const std::vector<In>& in)
     return out;
 }
 
-gbuffer::Geometry describe(const gpu::Device& device, const Scene& scene,
-                           const std::vector<Material>& sceneMaterials)
+gbuffer::Geometry geometryOf(const gpu::Device& device, const Scene& scene,
+                             const std::vector<Material>& sceneMaterials)
 {
     std::vector<std::vector<gbuffer::Vertex>> vertices;
     std::vector<gbuffer::Mesh> meshes;
@@ -139,7 +139,7 @@ gbuffer::Geometry describe(const gpu::Device& device, const Scene& scene,
 gbuffer::Geometry uploadGeometry(const VulkanContext& context, const Scene& scene,
                                  const std::vector<Material>& materials)
 {
-    gbuffer::Geometry geometry = describe(context.device(), scene, materials);
+    gbuffer::Geometry geometry = geometryOf(context.device(), scene, materials);
     context.submitAndWait([&](VkCommandBuffer cmd) { geometry.recordUpload(cmd); });
     geometry.releaseStaging();
     return geometry;

@@ -102,7 +102,7 @@ int preference(VkPhysicalDeviceType type)
     }
 }
 
-DeviceInfo describe(VkInstance instance, VkPhysicalDevice handle, uint32_t index)
+DeviceInfo deviceInfoOf(VkInstance instance, VkPhysicalDevice handle, uint32_t index)
 {
     VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
@@ -264,7 +264,7 @@ std::vector<DeviceInfo> VulkanInstance::devices() const
           "listing the Vulkan devices");
     std::vector<DeviceInfo> devices;
     for (uint32_t i = 0; i < count; ++i)
-        devices.push_back(describe(instance_, handles[i], i));
+        devices.push_back(deviceInfoOf(instance_, handles[i], i));
     return devices;
 }
 

@@ -72,7 +72,7 @@ constexpr Kind general[] = {
 };
 
 template <size_t N>
-std::optional<Kind> matching(const Kind (&kinds)[N], std::string_view start)
+std::optional<Kind> kindByMagic(const Kind (&kinds)[N], std::string_view start)
 {
     for (const Kind& kind : kinds)
         if (start.size() >= kind.offset && start.substr(kind.offset).starts_with(kind.magic))
@@ -80,7 +80,7 @@ std::optional<Kind> matching(const Kind (&kinds)[N], std::string_view start)
     return std::nullopt;
 }
 
-std::optional<Kind> named(const std::string& path)
+std::optional<Kind> kindByExtension(const std::string& path)
 {
     for (const Kind& kind : byExtension)
         if (hasExtension(path, kind.magic))
@@ -120,11 +120,11 @@ std::string otherFileKind(const std::string& path, std::string_view start)
 {
     if (start.starts_with(lfsPointerStart))
         return std::string(lfsPointerText);
-    std::optional<Kind> kind = matching(byMagic, start);
+    std::optional<Kind> kind = kindByMagic(byMagic, start);
     if (!kind)
-        kind = named(path);
+        kind = kindByExtension(path);
     if (!kind)
-        kind = matching(general, start);
+        kind = kindByMagic(general, start);
     if (kind)
         return std::string("is ") + kind->what + kind->advice;
     if (hasExtension(path, ".json") && start.starts_with("glTF"))

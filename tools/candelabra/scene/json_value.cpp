@@ -22,7 +22,7 @@ std::string numberText(double x)
 }
 
 // The value as it is written in the file, cut to a length that fits into a sentence.
-std::string describe(const nlohmann::json& value)
+std::string describeValue(const nlohmann::json& value)
 {
     if (value.is_object())
         return "an object";
@@ -60,7 +60,7 @@ void JsonValue::fail(const std::string& reason) const
 
 void JsonValue::failType(const std::string& wanted) const
 {
-    fail("must be " + wanted + ", is " + describe(*value_));
+    fail("must be " + wanted + ", is " + describeValue(*value_));
 }
 
 void JsonValue::requireObject() const

@@ -21,7 +21,7 @@ constexpr float smallestRadius = 1e-4f, largestRadius = 1e3f;
 // An influence radius has to be greater than the bounding radius of the emitter.
 constexpr float influenceMargin = 1.01f;
 
-bool has(const CndLight& light, CndLightFieldBits field)
+bool hasField(const CndLight& light, CndLightFieldBits field)
 {
     return (cndLightFields(light.type) & field) != 0;
 }
@@ -29,7 +29,7 @@ bool has(const CndLight& light, CndLightFieldBits field)
 // Whether the light's radius is the sine of an angle.
 bool isSun(const CndLight& light)
 {
-    return cndIsDistant(light.type) && has(light, CND_LIGHT_FIELD_RADIUS_BIT);
+    return cndIsDistant(light.type) && hasField(light, CND_LIGHT_FIELD_RADIUS_BIT);
 }
 
 glm::vec3 toVec3(const float (&v)[3])
@@ -117,7 +117,7 @@ std::string described(const LightEdit& edit)
 }
 
 // Selects the light of an edit that has been made, if it is still there.
-void follow(LightEditor& editor, const LightEdit& edit)
+void selectEdited(LightEditor& editor, const LightEdit& edit)
 {
     editor.selected.reset();
     if (edit.after)
@@ -209,7 +209,7 @@ bool emissionWidgets(CndLight& light, bool& watts)
 bool shapeWidgets(CndLight& light)
 {
     bool edited = false;
-    if (has(light, CND_LIGHT_FIELD_RADIUS_BIT)) {
+    if (hasField(light, CND_LIGHT_FIELD_RADIUS_BIT)) {
         const bool sun = isSun(light);
         float radius = light.radius;
         if (ImGui::DragFloat(sun ? "sine of radius" : "radius", &radius,
@@ -220,11 +220,11 @@ bool shapeWidgets(CndLight& light)
             edited = true;
         }
     }
-    if (has(light, CND_LIGHT_FIELD_DIRECTION_BIT))
+    if (hasField(light, CND_LIGHT_FIELD_DIRECTION_BIT))
         edited |= directionWidget(light);
-    if (has(light, CND_LIGHT_FIELD_CONE_BIT))
+    if (hasField(light, CND_LIGHT_FIELD_CONE_BIT))
         edited |= coneWidgets(light);
-    if (has(light, CND_LIGHT_FIELD_POLYGON_BIT)) {
+    if (hasField(light, CND_LIGHT_FIELD_POLYGON_BIT)) {
         int corners = int(light.polygon->cornerCount);
         if (ImGui::SliderInt("corners", &corners, 3, CND_MAX_CORNERS, "%d",
                              ImGuiSliderFlags_AlwaysClamp)) {
@@ -232,7 +232,7 @@ bool shapeWidgets(CndLight& light)
             edited = true;
         }
     }
-    if (has(light, CND_LIGHT_FIELD_TWO_SIDED_BIT)) {
+    if (hasField(light, CND_LIGHT_FIELD_TWO_SIDED_BIT)) {
         bool twoSided = light.twoSided;
         if (ImGui::Checkbox("two-sided", &twoSided)) {
             const std::optional<glm::vec3> power = powerOf(light);
@@ -310,7 +310,7 @@ bool moveLight(Scene& scene, LightEditor& editor, const glm::vec3& metres)
 bool scaleLightRadius(Scene& scene, LightEditor& editor, float factor)
 {
     CndLight* light = selectedLight(scene, editor);
-    if (!light || !has(*light, CND_LIGHT_FIELD_RADIUS_BIT))
+    if (!light || !hasField(*light, CND_LIGHT_FIELD_RADIUS_BIT))
         return false;
     const CndLight before = *light;
     changeRadius(*light, light->radius * factor);
@@ -323,7 +323,7 @@ std::string undoEdit(Scene& scene, LightEditor& editor)
     if (!editor.history.canUndo())
         return "there is no edit to undo";
     LightEdit edit = editor.history.undo(scene);
-    follow(editor, edit);
+    selectEdited(editor, edit);
     std::swap(edit.before, edit.after); // what was undone, not what was made of it
     return "undone: " + described(edit);
 }
@@ -333,7 +333,7 @@ std::string redoEdit(Scene& scene, LightEditor& editor)
     if (!editor.history.canRedo())
         return "there is no edit to redo";
     const LightEdit edit = editor.history.redo(scene);
-    follow(editor, edit);
+    selectEdited(editor, edit);
     return "redone: " + described(edit);
 }
 

@@ -9,12 +9,12 @@ namespace candelabra::app
 namespace
 {
 
-bool same(const std::optional<CndLight>& a, const std::optional<CndLight>& b)
+bool sameLight(const std::optional<CndLight>& a, const std::optional<CndLight>& b)
 {
     return a && b && std::memcmp(&*a, &*b, sizeof(CndLight)) == 0;
 }
 
-void apply(Scene& scene, const LightEdit& edit)
+void applyEdit(Scene& scene, const LightEdit& edit)
 {
     const auto at = std::ptrdiff_t(edit.light);
     if (edit.before && edit.after) {
@@ -42,7 +42,7 @@ void LightHistory::add(const LightEdit& edit)
     else
         steps_.push_back(edit);
     open_ = true;
-    if (same(steps_.back().before, steps_.back().after)) { // nothing is left of the step
+    if (sameLight(steps_.back().before, steps_.back().after)) { // nothing is left of the step
         steps_.pop_back();
         open_ = false;
     }
@@ -56,7 +56,7 @@ LightEdit LightHistory::undo(Scene& scene)
     LightEdit edit = steps_[--next_];
     std::swap(edit.before, edit.after);
     open_ = false;
-    apply(scene, edit);
+    applyEdit(scene, edit);
     return edit;
 }
 
@@ -64,7 +64,7 @@ LightEdit LightHistory::redo(Scene& scene)
 {
     const LightEdit edit = steps_[next_++];
     open_ = false;
-    apply(scene, edit);
+    applyEdit(scene, edit);
     return edit;
 }
 

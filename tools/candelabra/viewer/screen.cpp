@@ -20,7 +20,7 @@ constexpr ImGuiWindowFlags plain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFl
                                    ImGuiWindowFlags_NoFocusOnAppearing;
 
 // The next ImGui window is in the middle of the picture or at its foot. Returns its inner width.
-float place(bool below)
+float placeNextWindow(bool below)
 {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({size.x / 2, below ? size.y - 16 : size.y / 2}, ImGuiCond_Always,
@@ -99,7 +99,7 @@ void Screen::draw(const std::function<void()>& widgets)
 
 void drawProgress(const Job::State& state, bool below)
 {
-    const float width = place(below);
+    const float width = placeNextWindow(below);
     if (ImGui::Begin("##progress", nullptr, plain)) {
         writeWrapped(state.doing, width);
         ImGui::ProgressBar(float(state.done), {width, 0});
@@ -109,7 +109,7 @@ void drawProgress(const Job::State& state, bool below)
 
 void drawFailure(const std::string& message)
 {
-    const float width = place(false);
+    const float width = placeNextWindow(false);
     if (ImGui::Begin("##failure", nullptr, plain)) {
         writeWrapped(message, width);
         ImGui::Spacing();

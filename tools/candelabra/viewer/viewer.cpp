@@ -137,7 +137,7 @@ void Viewer::takeLoaded()
     try {
         loaded = loader_.take();
     } catch (...) {
-        fail(messageOf(std::current_exception()));
+        showError(messageOf(std::current_exception()));
         panel_.wantedLights = uint32_t(scene_.lights.size());
         wantedScene_ = sceneName_;
         wantedOptions_ = sceneOptions_;
@@ -212,7 +212,7 @@ void Viewer::rebuild(uint32_t wanted)
 {
     if (loader_.busy() && loadingKept_ == Kept::Nothing) {
         panel_.wantedLights = uint32_t(scene_.lights.size());
-        return say("the number of lights stays, because another scene is being loaded");
+        return showNote("the number of lights stays, because another scene is being loaded");
     }
     const uint32_t lights = uint32_t(std::min<uint64_t>(wanted, maxLightsOf(context_.info())));
     loadingLights_ = wanted;

@@ -80,9 +80,9 @@ private:
     bool onFrameAction(KeyAction action);
     bool onLightAction(KeyAction action);
     void escape();
-    void say(const std::string& note);
-    void fail(const std::string& note);
-    void sayLight(const char* what);
+    void showNote(const std::string& note);
+    void showError(const std::string& note);
+    void showLightNote(const char* what);
     void toggleOrbit();
     void frameSelection();
     void frameScene();

@@ -122,8 +122,9 @@ bool Viewer::handle(const InputEvent& event)
         if (*taken)
             return overlay_.turnWheel(event.y);
         camera_.wheel(event.y);
-        say(camera_.orbits() ? "the distance in orbit has changed"
-                             : fmt::format("camera speed {} m/s", threeDigits(camera_.speed())));
+        showNote(camera_.orbits()
+                     ? "the distance in orbit has changed"
+                     : fmt::format("camera speed {} m/s", threeDigits(camera_.speed())));
         return true;
     }
     case Kind::LoseFocus: // what is released from here on is released unseen
@@ -238,7 +239,7 @@ bool Viewer::isHeld(KeyAction action) const
 }
 
 // Shows in a corner what was done, and prints it with --verbose.
-void Viewer::say(const std::string& note)
+void Viewer::showNote(const std::string& note)
 {
     figures_.note = note;
     panel_.shownNote.clear(); // so that the same note is shown again
@@ -247,7 +248,7 @@ void Viewer::say(const std::string& note)
 }
 
 // Shows in a corner what has failed, and prints it.
-void Viewer::fail(const std::string& note)
+void Viewer::showError(const std::string& note)
 {
     figures_.note = note;
     panel_.shownNote.clear();
@@ -272,7 +273,7 @@ void Viewer::onAction(KeyAction action)
     case KeyAction::ListLights:
         pick_ = pixelUnderMouse();
         if (!pick_)
-            say("no pixel picked: the mouse is not over the picture");
+            showNote("no pixel picked: the mouse is not over the picture");
         break;
     case KeyAction::SaveScene:
         saveScene_ = true;
@@ -285,11 +286,11 @@ void Viewer::onAction(KeyAction action)
         break;
     case KeyAction::Panel:
         panel_.visible = !panel_.visible;
-        say(panel_.visible ? "the panel is shown" : "the panel is hidden");
+        showNote(panel_.visible ? "the panel is shown" : "the panel is hidden");
         break;
     case KeyAction::Help:
         panel_.help = !panel_.help;
-        say(panel_.help ? "the help is shown" : "the help is hidden");
+        showNote(panel_.help ? "the help is shown" : "the help is hidden");
         break;
     case KeyAction::Quit:
         escape();
@@ -303,12 +304,12 @@ void Viewer::escape()
 {
     if (overlay_.listOpen()) {
         overlay_.endEditing();
-        say("the list is closed");
+        showNote("the list is closed");
     } else if (panel_.help) {
         panel_.help = false;
-        say("the help is hidden");
+        showNote("the help is hidden");
     } else {
-        say("the viewer is closed");
+        showNote("the viewer is closed");
         window_.close();
     }
 }
@@ -322,38 +323,39 @@ bool Viewer::onFrameAction(KeyAction action)
     switch (action) {
     case KeyAction::NextSpecular:
         frame.specular = nextSpecular(frame.specular);
-        say(fmt::format("specular highlights: {}", specularName(frame.specular)));
+        showNote(fmt::format("specular highlights: {}", specularName(frame.specular)));
         return true;
     case KeyAction::Culling:
         frame.culling =
             frame.culling == CND_CULLING_CLUSTERED ? CND_CULLING_BRUTE : CND_CULLING_CLUSTERED;
         if (frame.culling == CND_CULLING_BRUTE)
             frame.heatMap = HeatMap::None;
-        say(fmt::format("light culling: {}", cullingName(frame.culling)));
+        showNote(fmt::format("light culling: {}", cullingName(frame.culling)));
         return true;
     case KeyAction::HeatMap:
         if (frame.culling == CND_CULLING_CLUSTERED)
             frame.heatMap = HeatMap((uint32_t(frame.heatMap) + 1) % heatMapCount);
-        say(frame.culling == CND_CULLING_CLUSTERED
-                ? fmt::format("heat map: {}", nameOf(frame.heatMap, heatMapChoices))
-                : "heat maps need clustered culling (C)");
+        showNote(frame.culling == CND_CULLING_CLUSTERED
+                     ? fmt::format("heat map: {}", nameOf(frame.heatMap, heatMapChoices))
+                     : "heat maps need clustered culling (C)");
         return true;
     case KeyAction::Compare:
         panel_.wipe.on = !panel_.wipe.on;
-        say(panel_.wipe.on ? "two ways of shading are compared" : "one way of shading is shown");
+        showNote(panel_.wipe.on ? "two ways of shading are compared"
+                                : "one way of shading is shown");
         return true;
     case KeyAction::FewerLights:
         panel_.wantedLights = std::max(lights / 2, 1u);
-        say(fmt::format("{} wanted", counted(panel_.wantedLights, "light")));
+        showNote(fmt::format("{} wanted", counted(panel_.wantedLights, "light")));
         return true;
     case KeyAction::MoreLights:
         panel_.wantedLights = std::min(std::max(lights, 1u) * 2, maxLights);
-        say(fmt::format("{} wanted", counted(panel_.wantedLights, "light")));
+        showNote(fmt::format("{} wanted", counted(panel_.wantedLights, "light")));
         return true;
     case KeyAction::Darker:
     case KeyAction::Brighter:
         frame.exposure.compensation += action == KeyAction::Darker ? -0.5f : 0.5f;
-        say(fmt::format("exposure compensation {:+.1f} EV", frame.exposure.compensation));
+        showNote(fmt::format("exposure compensation {:+.1f} EV", frame.exposure.compensation));
         return true;
     default:
         return false;
@@ -361,10 +363,10 @@ bool Viewer::onFrameAction(KeyAction action)
 }
 
 // Says what was done with the selected light.
-void Viewer::sayLight(const char* what)
+void Viewer::showLightNote(const char* what)
 {
     if (!panel_.editor.selected)
-        return say("no light is selected: click one, or Tab");
+        return showNote("no light is selected: click one, or Tab");
     const CndLight& light = scene_.lights[*panel_.editor.selected];
     const std::string place = cndIsDistant(light.type)
                                   ? "infinitely far away"
@@ -373,9 +375,9 @@ void Viewer::sayLight(const char* what)
                                                 scene_.lightOrigin.y + double(light.position[1]),
                                                 scene_.lightOrigin.z + double(light.position[2]));
     const bool round = cndLightFields(light.type) & CND_LIGHT_FIELD_RADIUS_BIT;
-    say(fmt::format("light {} {}: {} {}{}", *panel_.editor.selected, what,
-                    lightTypeLabel(light.type), place,
-                    round ? fmt::format(", radius {:.4g}", light.radius) : ""));
+    showNote(fmt::format("light {} {}: {} {}{}", *panel_.editor.selected, what,
+                         lightTypeLabel(light.type), place,
+                         round ? fmt::format(", radius {:.4g}", light.radius) : ""));
 }
 
 // Handles the keys of lights; returns true if `action` is one of them. Lights move along the
@@ -384,7 +386,7 @@ bool Viewer::onLightAction(KeyAction action)
 {
     LightEditor& editor = panel_.editor;
     if (rebuilds() && editsLights(action)) {
-        say(editorLocked);
+        showNote(editorLocked);
         return true;
     }
     const glm::vec3 f = camera_.camera().forward;
@@ -394,29 +396,29 @@ bool Viewer::onLightAction(KeyAction action)
     const glm::vec3 right{-ahead.z, 0, ahead.x};
     const auto move = [&](const glm::vec3& direction) {
         if (moveLight(scene_, editor, lightStep * direction) || !editor.selected)
-            sayLight("moved");
+            showLightNote("moved");
         else
-            say(fmt::format("light {} has no position", *editor.selected));
+            showNote(fmt::format("light {} has no position", *editor.selected));
         return true;
     };
     switch (action) {
     case KeyAction::AddLight:
         addLightInView();
-        sayLight("added");
+        showLightNote("added");
         return true;
     case KeyAction::DuplicateLight:
         duplicateLight(scene_, editor);
-        sayLight("added");
+        showLightNote("added");
         return true;
     case KeyAction::NextLight:
     case KeyAction::PreviousLight:
         selectLight(scene_, editor, action == KeyAction::NextLight ? 1 : -1);
         panel_.object.reset();
-        sayLight("selected");
+        showLightNote("selected");
         return true;
     case KeyAction::RemoveLight:
-        say(editor.selected ? fmt::format("light {} removed", *editor.selected)
-                            : "no light is selected: click one, or Tab");
+        showNote(editor.selected ? fmt::format("light {} removed", *editor.selected)
+                                 : "no light is selected: click one, or Tab");
         removeLight(scene_, editor);
         return true;
     case KeyAction::ShrinkLight:
@@ -424,15 +426,15 @@ bool Viewer::onLightAction(KeyAction action)
         if (scaleLightRadius(scene_, editor,
                              action == KeyAction::GrowLight ? radiusStep : 1 / radiusStep) ||
             !editor.selected)
-            sayLight("resized");
+            showLightNote("resized");
         else
-            say(fmt::format("light {} has no radius", *editor.selected));
+            showNote(fmt::format("light {} has no radius", *editor.selected));
         return true;
     case KeyAction::Undo:
-        say(undoEdit(scene_, editor));
+        showNote(undoEdit(scene_, editor));
         return true;
     case KeyAction::Redo:
-        say(redoEdit(scene_, editor));
+        showNote(redoEdit(scene_, editor));
         return true;
     case KeyAction::LightAhead:
         return move(ahead);
@@ -455,7 +457,7 @@ void Viewer::toggleOrbit()
 {
     if (camera_.orbits()) {
         camera_.fly();
-        return say("the camera flies");
+        return showNote("the camera flies");
     }
     // The pivot is as far ahead as the middle of the scene. If the middle lies behind the camera,
     // it is a third of the scene's diagonal ahead, at least 1 m.
@@ -465,7 +467,7 @@ void Viewer::toggleOrbit()
         glm::dot(0.5 * (bounds.min + bounds.max) - camera.position, camera.forward);
     const double third = glm::length(bounds.max - bounds.min) / 3;
     camera_.orbit(middle > 0 ? middle : std::max(third, 1.0));
-    say("the camera orbits the point ahead");
+    showNote("the camera orbits the point ahead");
 }
 
 // Moves the camera, in its direction, to where it sees what is selected, or else the whole scene.
@@ -495,13 +497,13 @@ void Viewer::frameSelection()
     camera_ =
         FlyCamera(fitCamera(std::move(points), camera_.camera(), double(size.width) / size.height),
                   camera_.speed());
-    say(what + " fills the view");
+    showNote(what + " fills the view");
 }
 
 // Moves the camera back until it sees all of the scene; inside a room, to where it saw most of it.
 void Viewer::frameScene()
 {
-    say("the whole scene is in view");
+    showNote("the whole scene is in view");
     if (scene_.interior) {
         camera_ = FlyCamera(selectCamera(scene_, "inside"), camera_.speed());
         return;
@@ -579,9 +581,9 @@ void Viewer::selectAt(glm::dvec2 place)
     panel_.editor.selected = lightUnder(place, surface, panel_.object);
     if (panel_.editor.selected) {
         panel_.object.reset();
-        return sayLight("selected");
+        return showLightNote("selected");
     }
-    say(panel_.object ? panel_.object->name + " selected" : "nothing is selected");
+    showNote(panel_.object ? panel_.object->name + " selected" : "nothing is selected");
 }
 
 // Adds a light where it lights what is in the middle of the view without hiding it: nearer to the
@@ -642,7 +644,7 @@ void Viewer::save(const char* extension, const std::function<void(const std::str
         settling_ = panelSettles;
         spdlog::info("{}", figures_.note);
     } catch (const std::runtime_error& error) {
-        fail(error.what());
+        showError(error.what());
     }
 }
 
@@ -685,7 +687,7 @@ void Viewer::pick(PixelPosition pixel)
     FrameOptions frame = optionsAt(int32_t(pixel.x));
     if (const std::string refusal = pickRefusal(frame.specular, frame.influence.rule);
         !refusal.empty()) {
-        say("no pixel picked: " + refusal);
+        showNote("no pixel picked: " + refusal);
         return;
     }
     if (pixel.x >= size.width || pixel.y >= size.height) // the window has become smaller

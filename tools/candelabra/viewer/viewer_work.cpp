@@ -180,7 +180,7 @@ void Viewer::takeWork()
             panel_.materialsChosen = true; // still
     } catch (...) {
         takeBack_();
-        fail(messageOf(std::current_exception()));
+        showError(messageOf(std::current_exception()));
     }
     made_.reset();
     madeSide_.reset();

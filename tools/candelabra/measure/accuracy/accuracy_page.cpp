@@ -18,7 +18,7 @@ namespace
 
 // The colour map "magma" (van der Walt and Smith 2015) in six steps from black over purple, red and
 // orange to pale yellow.
-glm::vec3 heat(float x)
+glm::vec3 magma(float x)
 {
     static const std::array<glm::vec3, 6> steps = {
         glm::vec3(0.001f, 0.000f, 0.014f), glm::vec3(0.232f, 0.060f, 0.438f),
@@ -34,7 +34,7 @@ DisplayImage heatMap(const std::vector<float>& map, uint32_t width, uint32_t hei
 {
     DisplayImage out{width, height, {}};
     for (const float x : map)
-        out.pixels.push_back(heat(2 * x));
+        out.pixels.push_back(magma(2 * x));
     return out;
 }
 

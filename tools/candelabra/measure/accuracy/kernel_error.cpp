@@ -95,8 +95,8 @@ bool isValid(const Response& r)
     return good(r.f) && good(r.a) && good(r.b);
 }
 
-HorizonStatistics compare(const SampleSet& set, std::span<const Values> values,
-                          std::span<const Values> expected, Quantity quantity)
+HorizonStatistics horizonStatistics(const SampleSet& set, std::span<const Values> values,
+                                    std::span<const Values> expected, Quantity quantity)
 {
     const std::vector<double> peak = peaks(set, quantity);
     std::vector<Error> all, above, crossing;
@@ -116,9 +116,9 @@ HorizonStatistics compare(const SampleSet& set, std::span<const Values> values,
 LobeStatistics compareLobes(const SampleSet& set, std::span<const Values> values,
                             std::span<const Values> expected)
 {
-    return {compare(set, values, expected, mirrorOf).all,
-            compare(set, values, expected, dielectricOf).all,
-            compare(set, values, expected, diffuseOf).all};
+    return {horizonStatistics(set, values, expected, mirrorOf).all,
+            horizonStatistics(set, values, expected, dielectricOf).all,
+            horizonStatistics(set, values, expected, diffuseOf).all};
 }
 
 double scanL1(const SampleSet& set, std::span<const gpu::BenchResponse> responses)
@@ -179,10 +179,10 @@ KernelError kernelError(const SampleSet& set, std::span<const gpu::BenchResponse
                         std::span<const formula::Response> inDouble)
 {
     const std::vector<Values> values = valuesOf(responses), truths = truthsOf(set);
-    KernelError out{.mirror = compare(set, values, truths, mirrorOf),
+    KernelError out{.mirror = horizonStatistics(set, values, truths, mirrorOf),
                     .groupMeans = groupMeans(set, responses),
-                    .dielectric = compare(set, values, truths, dielectricOf),
-                    .diffuse = compare(set, values, truths, diffuseOf),
+                    .dielectric = horizonStatistics(set, values, truths, dielectricOf),
+                    .diffuse = horizonStatistics(set, values, truths, diffuseOf),
                     .scanL1 = scanL1(set, responses),
                     .parts = {}};
     if (!inDouble.empty()) {

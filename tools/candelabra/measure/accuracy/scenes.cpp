@@ -59,7 +59,8 @@ void addSphere(Scene& scene, const glm::vec3& position, float radius, const glm:
     scene.lights.push_back(light(CND_LIGHT_SPHERE, position, radius, emission));
 }
 
-Scene named(const char* name, const glm::dvec3& eye, const glm::dvec3& target, double fovDegrees)
+Scene emptyScene(const char* name, const glm::dvec3& eye, const glm::dvec3& target,
+                 double fovDegrees)
 {
     Scene scene;
     scene.name = name;
@@ -75,7 +76,7 @@ Scene named(const char* name, const glm::dvec3& eye, const glm::dvec3& target, d
 
 Scene smallLights()
 {
-    Scene s = named("small lights over a rough floor", {0, 2.2, 5}, {0, 0.3, 0}, 45);
+    Scene s = emptyScene("small lights over a rough floor", {0, 2.2, 5}, {0, 0.3, 0}, 45);
     addPlane(s, {{0.55f, 0.5f, 0.45f}, 0.25f, 0});
     addBall(s, {0, 0.7, 0}, 0.7, {{0.7f, 0.7f, 0.72f}, 0.09f, 1});
     for (int i = 0; i < 6; ++i) {
@@ -88,7 +89,7 @@ Scene smallLights()
 
 Scene glossyBalls()
 {
-    Scene s = named("metal balls, three sizes of light", {0, 1.4, 5}, {0, 0.9, 0}, 42);
+    Scene s = emptyScene("metal balls, three sizes of light", {0, 1.4, 5}, {0, 0.9, 0}, 42);
     addPlane(s, {{0.3f, 0.3f, 0.3f}, 0.4f, 0});
     const float alphas[] = {0.01f, 0.04f, 0.16f, 0.5f};
     for (int i = 0; i < 4; ++i)
@@ -101,7 +102,7 @@ Scene glossyBalls()
 
 Scene cutPlane()
 {
-    Scene s = named("glossy floor cut by a light", {0, 1.6, 4}, {0, 0, -0.3}, 45);
+    Scene s = emptyScene("glossy floor cut by a light", {0, 1.6, 4}, {0, 0, -0.3}, 45);
     addPlane(s, {{0.2f, 0.2f, 0.22f}, 0.1f, 0});
     addSphere(s, {0, 0.15f, -0.5f}, 0.6f, {100, 95, 80});
     addSphere(s, {1.8f, -0.1f, 0.4f}, 0.4f, {30, 60, 120});
@@ -110,7 +111,7 @@ Scene cutPlane()
 
 Scene grazing()
 {
-    Scene s = named("large light at grazing angles", {0, 0.35, 4}, {0, 0.1, -2}, 40);
+    Scene s = emptyScene("large light at grazing angles", {0, 0.35, 4}, {0, 0.1, -2}, 40);
     addPlane(s, {{0.4f, 0.38f, 0.35f}, 0.15f, 0});
     addSphere(s, {0, 1.2f, -4}, 1.1f, {90, 90, 100});
     return s;
@@ -118,7 +119,7 @@ Scene grazing()
 
 Scene tinyBright()
 {
-    Scene s = named("tiny bright lights on lacquer", {0, 1.5, 4.5}, {0, 0.5, 0}, 42);
+    Scene s = emptyScene("tiny bright lights on lacquer", {0, 1.5, 4.5}, {0, 0.5, 0}, 42);
     addPlane(s, {{0.35f, 0.3f, 0.28f}, 0.3f, 0});
     const float alphas[] = {0.03f, 0.1f, 0.3f};
     for (int i = 0; i < 3; ++i)
@@ -130,7 +131,7 @@ Scene tinyBright()
 
 Scene manyOnMetal()
 {
-    Scene s = named("a row of metal under five spheres", {0, 1.1, 5.5}, {0, 0.6, 0}, 44);
+    Scene s = emptyScene("a row of metal under five spheres", {0, 1.1, 5.5}, {0, 0.6, 0}, 44);
     addPlane(s, {{0.9f, 0.85f, 0.8f}, 0.25f, 1});
     for (int i = 0; i < 5; ++i)
         addBall(s, {1.1 * (i - 2), 0.5, 0.2 * (i % 2)}, 0.45,
@@ -143,7 +144,7 @@ Scene manyOnMetal()
 
 Scene everyShape()
 {
-    Scene s = named("tube, rectangle, disc and sun", {0, 2, 5}, {0, 0.5, 0}, 48);
+    Scene s = emptyScene("tube, rectangle, disc and sun", {0, 2, 5}, {0, 0.5, 0}, 48);
     addPlane(s, {{0.5f, 0.5f, 0.5f}, 0.16f, 0});
     addBall(s, {-0.9, 0.6, 0.3}, 0.6, {{0.95f, 0.64f, 0.54f}, 0.04f, 1});
     addBall(s, {0.9, 0.6, 0.3}, 0.6, {{0.6f, 0.2f, 0.15f}, 0.12f, 0});

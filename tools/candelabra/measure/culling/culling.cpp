@@ -29,7 +29,7 @@ namespace
 // The (pixel, light) pairs of the strip from which the time of brute force is estimated.
 constexpr double stripPairs = 2e8;
 
-bool shades(const std::string& pass)
+bool isShadingPass(const std::string& pass)
 {
     return pass.starts_with("shade_") || pass == "baseline_shade" || pass == "baseline_floor";
 }
@@ -225,7 +225,7 @@ double Contender::shadingMs() const
 {
     double ms = 0;
     for (const PassSummary& pass : times.summary())
-        ms += shades(pass.name) ? pass.medianMs : 0;
+        ms += isShadingPass(pass.name) ? pass.medianMs : 0;
     return std::min(ms, totalMs());
 }
 

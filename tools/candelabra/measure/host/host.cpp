@@ -45,11 +45,11 @@ public:
           scene_(scene),
           options_{.camera = selectCamera(scene, ""), .lightsVisible = false},
           renderer_(context, scene, {.size = {32, 18}, .lightTypes = 1u << CND_LIGHT_SPHERE}),
-          lighting_(take(
+          lighting_(valueOrThrow(
               Lighting::create(context.desc(), {.framesInFlight = 1,
                                                 .shading = CND_SHADING_CLUSTERED_BIT,
                                                 .lightCapacity = uint32_t(scene.lights.size())}))),
-          view_(take(lighting_.createView({.maxWidth = 32, .maxHeight = 18}))),
+          view_(valueOrThrow(lighting_.createView({.maxWidth = 32, .maxHeight = 18}))),
           ids_(scene.lights.size()),
           copy_(scene.lights.size() * copiedPerLight)
     {
@@ -68,15 +68,15 @@ public:
         measure(*next++, "move", all, [&] { lightsAtTime(scene_, time_, lights_); });
         const glm::dvec3& o = scene_.lightOrigin;
         measure(*next++, "set all", all, [&] {
-            take(lighting_.setLights(lights_, {o.x, o.y, o.z}));
+            valueOrThrow(lighting_.setLights(lights_, {o.x, o.y, o.z}));
         }).recordingMs.push_back(record());
         measure(*next++, "update all", all, [&] {
-            take(lighting_.updateLights(ids_, lights_));
+            valueOrThrow(lighting_.updateLights(ids_, lights_));
         }).recordingMs.push_back(record());
         for (size_t i = 0; i < half_.size(); ++i)
             halfLights_[i] = lights_[half_[i]];
         measure(*next++, "update half", some, [&] {
-            take(lighting_.updateLights(half_, halfLights_));
+            valueOrThrow(lighting_.updateLights(half_, halfLights_));
         }).recordingMs.push_back(record());
     }
     static constexpr size_t callCount = 4;
@@ -105,7 +105,7 @@ private:
             renderer_.recordUnlit(cmd, options_);
             const CndLightingFrame frame = renderer_.lightingFrame(0, options_);
             const Clock::time_point start = Clock::now();
-            take(view_.record(cmd, frame));
+            valueOrThrow(view_.record(cmd, frame));
             ms = millisecondsSince(start);
             renderer_.recordBruteEnd(cmd);
         });

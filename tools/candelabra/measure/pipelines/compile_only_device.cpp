@@ -28,7 +28,7 @@ bool hasNeeded(VkPhysicalDevice device)
 
 // The devices, where `missing` says what each lacks for compiling. What drawing needs besides does
 // not matter here.
-std::vector<DeviceInfo> compilers(const VulkanInstance& instance)
+std::vector<DeviceInfo> compilingDevices(const VulkanInstance& instance)
 {
     std::vector<DeviceInfo> devices = instance.devices();
     for (DeviceInfo& device : devices)
@@ -70,7 +70,7 @@ CompileOnlyDevice* current = nullptr; // Vulkan functions have no parameter for 
 
 // A handle of an object that does not exist.
 template <typename T>
-T unmade()
+T fakeHandle()
 {
     static uint64_t last = 0;
     return reinterpret_cast<T>(++last);
@@ -83,7 +83,7 @@ struct CompileOnlyDevice::Functions {
     template <typename Info, typename T>
     static VkResult VKAPI_CALL create(VkDevice, const Info*, const VkAllocationCallbacks*, T* out)
     {
-        *out = unmade<T>();
+        *out = fakeHandle<T>();
         return VK_SUCCESS;
     }
     template <typename T>
@@ -135,7 +135,7 @@ struct CompileOnlyDevice::Functions {
                                             VkDescriptorSet* out)
     {
         for (uint32_t i = 0; i < info->descriptorSetCount; ++i)
-            out[i] = unmade<VkDescriptorSet>();
+            out[i] = fakeHandle<VkDescriptorSet>();
         return VK_SUCCESS;
     }
     static void VKAPI_CALL updateSets(VkDevice, uint32_t, const VkWriteDescriptorSet*, uint32_t,
@@ -273,7 +273,7 @@ struct CompileOnlyDevice::Functions {
 CompileOnlyDevice::CompileOnlyDevice(const std::string& device,
                                      std::function<bool(const PipelineRequest&)> wanted)
     : instance_(Validation::Off, Presentation::Headless),
-      info_(chooseDevice(compilers(instance_), device)),
+      info_(chooseDevice(compilingDevices(instance_), device)),
       wanted_(std::move(wanted))
 {
     createDevice();

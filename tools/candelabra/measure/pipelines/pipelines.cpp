@@ -139,14 +139,14 @@ std::vector<PipelineCost> measurePipelines(const PipelineSettings& settings, Dev
     lightsAtTime(showcase, 0, lights);
     std::erase_if(lights,
                   [&](const CndLight& light) { return !(settings.lightTypes >> light.type & 1); });
-    Lighting lighting = take(Lighting::create(
+    Lighting lighting = valueOrThrow(Lighting::create(
         device.desc(), {.framesInFlight = 1,
                         .specularMethods = settings.methods & gpu::ALL_SPECULAR_METHODS,
                         .diffuseOnlyTiles = VK_TRUE,
                         .influenceByError = VK_TRUE}));
-    take(lighting.setLights(lights, {0, 0, 0}));
-    take(Environment::create(device.desc(), {.framesInFlight = 1}));
-    take(Exposure::create(device.desc(), {.framesInFlight = 1}));
+    valueOrThrow(lighting.setLights(lights, {0, 0, 0}));
+    valueOrThrow(Environment::create(device.desc(), {.framesInFlight = 1}));
+    valueOrThrow(Exposure::create(device.desc(), {.framesInFlight = 1}));
     const gpu::Device raster(device.desc(), gpu::rasterPass);
     constexpr uint32_t allTextures = (1u << gpu::TEXTURES_PER_MATERIAL) - 1;
     const gbuffer::MeshVariant meshes[] = {

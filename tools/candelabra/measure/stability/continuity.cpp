@@ -40,7 +40,7 @@ struct Place {
 };
 using Way = std::function<Place(const Path&, double)>;
 
-Place at(const Path& p, const glm::dvec3& direction)
+Place placeAt(const Path& p, const glm::dvec3& direction)
 {
     return {direction, p.s, 1, p.axis, p.side};
 }
@@ -48,14 +48,14 @@ Place at(const Path& p, const glm::dvec3& direction)
 Place throughHorizon(const Path& p, double t)
 {
     const double elevation = std::asin(p.s) * (2.2 * (1 - t) - 1.1);
-    return at(p, polar(pi / 2 - elevation, p.azimuth));
+    return placeAt(p, polar(pi / 2 - elevation, p.azimuth));
 }
 
 // The light goes from well above the horizon to one half angle above it.
 Place towardsHorizon(const Path& p, double t)
 {
     const double half = std::asin(p.s);
-    return at(p, polar((pi / 2 - half) * t, p.azimuth));
+    return placeAt(p, polar((pi / 2 - half) * t, p.azimuth));
 }
 
 // The light goes through the mirror direction in the plane of incidence.
@@ -64,7 +64,7 @@ Place throughMirror(const Path& p, double t)
     const double alpha = double(p.perceptualRoughness) * p.perceptualRoughness;
     const double width = 2 * (std::asin(p.s) + alpha);
     const double angle = std::acos(std::clamp(p.v.z, -1.0, 1.0)) + width * (2 * t - 1);
-    return at(p, polar(angle, std::atan2(-p.v.y, -p.v.x)));
+    return placeAt(p, polar(angle, std::atan2(-p.v.y, -p.v.x)));
 }
 
 // The light grows, somewhere within its largest half angle and the lobe's from the mirror
@@ -73,7 +73,8 @@ Place throughSizes(const Path& p, double t)
 {
     const double alpha = double(p.perceptualRoughness) * p.perceptualRoughness;
     const glm::dvec3 mirror(-p.v.x, -p.v.y, p.v.z);
-    Place out = at(p, glm::normalize(mirror + (p.s + alpha) * polar(2 * p.azimuth, p.azimuth)));
+    Place out =
+        placeAt(p, glm::normalize(mirror + (p.s + alpha) * polar(2 * p.azimuth, p.azimuth)));
     out.sine = p.s * std::pow(1e-4, 1 - t);
     return out;
 }
@@ -96,7 +97,7 @@ Place turning(const Path& p, double t)
 
 // The place at which a light of that size is brightest: in the mirror direction, facing the
 // receiver.
-Place facing(const Path& p, const Place& place)
+Place placeFacing(const Path& p, const Place& place)
 {
     const glm::dvec3 mirror(-p.v.x, -p.v.y, p.v.z);
     const glm::dvec3 axis = glm::normalize(glm::cross(mirror, p.axis));
@@ -210,7 +211,7 @@ public:
                 receivers.push_back({.n = {0, 0, 1},
                                      .v = glm::vec3(p.v),
                                      .perceptualRoughness = p.perceptualRoughness});
-                lights.push_back(lightAt(lightType_, p, peak ? facing(p, place) : place));
+                lights.push_back(lightAt(lightType_, p, peak ? placeFacing(p, place) : place));
             }
         std::vector<double> out;
         for (const gpu::BenchResponse& r : evaluator_.evaluate(receivers, lights))

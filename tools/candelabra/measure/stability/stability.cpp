@@ -61,7 +61,7 @@ struct Compared {
     bool truthAboveBound = false;
 };
 
-Compared compare(const gpu::SweepRecord& r, const Evaluation& evaluation)
+Compared compareWithTruth(const gpu::SweepRecord& r, const Evaluation& evaluation)
 {
     const reference::SurfacePoint surface{glm::dvec3(0), glm::normalize(glm::dvec3(r.n)),
                                           glm::normalize(glm::dvec3(r.v))};
@@ -112,7 +112,8 @@ QuadratureCheck checkQuadrature(Sweep& sweep, const Evaluation& evaluation, uint
             drawn += count;
             std::vector<Compared> compared(records.size());
             parallelFor(
-                records.size(), [&](size_t i) { compared[i] = compare(records[i], evaluation); },
+                records.size(),
+                [&](size_t i) { compared[i] = compareWithTruth(records[i], evaluation); },
                 [](size_t) {});
             const size_t before = errors.size();
             for (size_t i = 0; i < records.size(); ++i) {
