@@ -32,7 +32,7 @@ constexpr VkDeviceSize workListAt(uint32_t list)
 {
     return list * sizeof(gpu::WorkList);
 }
-// The same in a buffer of tiles, for a height, such as gpu::ANY_HEIGHT, and a class.
+// The same in a buffer of tiles, for a height, such as gpu::ANY_HEIGHT, and a tile class.
 constexpr VkDeviceSize tileWorkListAt(uint32_t height, uint32_t tileClass)
 {
     return workListAt(height * gpu::TILE_CLASSES + tileClass);
@@ -41,12 +41,12 @@ constexpr VkDeviceSize tileWorkListAt(uint32_t height, uint32_t tileClass)
 // llvmpipe, where a loop costs time even if no light needs it, else only gpu::ANY_HEIGHT (DECISIONS
 // 72).
 uint32_t tileHeightsOf(const gpu::Device& device, uint32_t lightType);
-// Returns the number of tiles with a surface, of all classes.
+// Returns the number of tiles with a surface, of all tile classes.
 inline uint32_t surfaceTileCount(const gpu::LightingCounters& counters)
 {
     uint32_t count = 0;
-    for (const uint32_t ofClass : counters.surfaceTiles)
-        count += ofClass;
+    for (const uint32_t tiles : counters.surfaceTiles)
+        count += tiles;
     return count;
 }
 
@@ -59,7 +59,7 @@ class Clusters
 public:
     struct Sizes {
         uint32_t slots;          // frames in flight
-        uint32_t tileClasses;    // classes of tiles that work lists have room for
+        uint32_t tileClasses;    // tile classes that work lists have room for
         glm::uvec2 maxTiles;     // tiles of the largest frame, in x and y
         VkDeviceSize listBudget; // bytes for the pages of lists
     };
@@ -93,9 +93,9 @@ public:
 
     // The light lists of one light type.
     struct Lists {
-        gpu::Buffer heads;    // per cluster
-        gpu::Buffer lit;      // WorkLists by height and class: tiles with lists that hold lights
-        gpu::Buffer unlisted; // WorkLists by class: tiles with clusters that have no list
+        gpu::Buffer heads; // per cluster
+        gpu::Buffer lit;   // WorkLists by height and tile class: tiles with lists that hold lights
+        gpu::Buffer unlisted; // WorkLists by tile class: tiles with clusters that have no list
     };
     const Lists& lists(uint32_t type) const { return lists_[type]; }
     // Returns the WorkLists of the tiles that shade_tiles takes. For distant lights, which have no
@@ -108,7 +108,7 @@ public:
     // Returns how many tiles have been split if `asked` tiles were deep: there may be room for
     // fewer.
     uint32_t splitTileCount(uint32_t asked) const { return std::min(asked, splitCapacity_); }
-    // WorkLists by class: tiles with a surface.
+    // WorkLists by tile class: tiles with a surface.
     const gpu::Buffer& surfaces() const { return surfaces_; }
 
 private:

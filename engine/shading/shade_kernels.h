@@ -49,7 +49,7 @@ public:
     {
         return (allowed_[method].load() & shading) == shading;
     }
-    // The kernels for tiles of one class.
+    // The kernels for tiles of one tile class.
     struct Tiles {
         // One per height of tiles, such as gpu::ANY_HEIGHT. Those below tileHeightsOf() exist.
         gpu::Kernel<gpu::ShadeTilesParams> shade[gpu::TILE_HEIGHTS];
@@ -66,13 +66,13 @@ public:
     const Variant& variant(uint32_t type, CndSpecularMethod method) const;
     // `tileClass`: one of tileClasses().
     const Tiles& tiles(uint32_t type, CndSpecularMethod method, uint32_t tileClass) const;
-    // Returns the number of classes that have a work list and kernels: CLASS_ANY has them, and
+    // Returns the number of tile classes that have a work list and kernels: CLASS_ANY has them, and
     // CLASS_DIFFUSE may have them.
     uint32_t tileClasses() const { return findsDiffuse_ ? gpu::TILE_CLASSES : 1; }
 
 private:
     // Pipelines that are made together. The value is their bit in Slot::made for CLASS_ANY; Lists
-    // and Counts of another class have the bit shifted left by the class.
+    // and Counts of another tile class have the bit shifted left by the class.
     enum Part : uint32_t {
         Lists = 1,                           // shade and unlisted, of CLASS_ANY
         Counts = Lists << gpu::TILE_CLASSES, // countPairs, of CLASS_ANY

@@ -15,11 +15,11 @@ namespace
 
 using gpu::divideUp;
 
-// Calls `record` for each class of tiles, with its kernels and the class. No tile is on
-// two work lists of a buffer, so the dispatches for these lists need no barriers between them.
+// Calls `record` for each tile class, with its kernels. No tile is on two work lists of a buffer,
+// so the dispatches for these lists need no barriers between them.
 template <typename Record>
-void byClass(const ShadeKernels& kernels, const CndLightingFrame& frame, uint32_t type,
-             Record&& record) noexcept
+void forEachTileClass(const ShadeKernels& kernels, const CndLightingFrame& frame, uint32_t type,
+                      Record&& record) noexcept
 {
     for (uint32_t tileClass = 0; tileClass < kernels.tileClasses(); ++tileClass)
         record(kernels.tiles(type, frame.specularMethod, tileClass), tileClass);
@@ -231,12 +231,13 @@ void View::recordClustered(const gpu::Frame& f, const FramePlan& p, uint32_t typ
     const uint32_t set = f.slot * CND_LIGHT_TYPE_COUNT + type;
     const auto shade = [&](const gpu::LightBatch& batch) {
         const gpu::UntimedFrame u(f);
-        byClass(kernels, p.frame, type, [&](const ShadeKernels::Tiles& tiles, uint32_t tileClass) {
-            for (uint32_t height = 0; height < tileHeightsOf(module_.device, type); ++height)
-                tiles.shade[height].dispatchIndirect(u, sets_.shadeTiles.set(set), {batch},
-                                                     clusters_.tilesToShade(type),
-                                                     tileWorkListAt(height, tileClass));
-        });
+        forEachTileClass(
+            kernels, p.frame, type, [&](const ShadeKernels::Tiles& tiles, uint32_t tileClass) {
+                for (uint32_t height = 0; height < tileHeightsOf(module_.device, type); ++height)
+                    tiles.shade[height].dispatchIndirect(u, sets_.shadeTiles.set(set), {batch},
+                                                         clusters_.tilesToShade(type),
+                                                         tileWorkListAt(height, tileClass));
+            });
         f.timer.stamp(f.cmd, sets_.shadeTiles.name());
         f.barrier();
     };
@@ -260,11 +261,12 @@ void View::recordUnlisted(const gpu::Frame& f, const FramePlan& p, uint32_t type
     const gpu::UntimedFrame untimed(f); // the dispatches share one row of times
     const gpu::Frame& u = untimed;
     const auto record = [&](const gpu::ShadeUnlistedParams& part) {
-        byClass(kernels, p.frame, type, [&](const ShadeKernels::Tiles& tiles, uint32_t tileClass) {
-            tiles.unlisted.dispatchIndirect(u, sets_.shadeUnlisted.set(set), part,
-                                            clusters_.lists(type).unlisted,
-                                            tileWorkListAt(gpu::ANY_HEIGHT, tileClass));
-        });
+        forEachTileClass(
+            kernels, p.frame, type, [&](const ShadeKernels::Tiles& tiles, uint32_t tileClass) {
+                tiles.unlisted.dispatchIndirect(u, sets_.shadeUnlisted.set(set), part,
+                                                clusters_.lists(type).unlisted,
+                                                tileWorkListAt(gpu::ANY_HEIGHT, tileClass));
+            });
         u.barrier();
     };
     record({.listHead = gpu::LIST_UNLISTED,
@@ -297,12 +299,12 @@ void View::recordCountPairs(const gpu::Frame& f, const FramePlan& p, uint32_t ty
     const gpu::CountPairsParams params{.batch = allLights(p, type),
                                        .writesImage = p.frame.pairImage != VK_NULL_HANDLE};
     const gpu::UntimedFrame u(f);
-    byClass(module_.kernels.shade, p.frame, type,
-            [&](const ShadeKernels::Tiles& kernels, uint32_t tileClass) {
-                kernels.countPairs.dispatchIndirect(u, sets_.countPairs.set(set), params,
-                                                    clusters_.surfaces(),
-                                                    tileWorkListAt(gpu::ANY_HEIGHT, tileClass));
-            });
+    forEachTileClass(module_.kernels.shade, p.frame, type,
+                     [&](const ShadeKernels::Tiles& kernels, uint32_t tileClass) {
+                         kernels.countPairs.dispatchIndirect(
+                             u, sets_.countPairs.set(set), params, clusters_.surfaces(),
+                             tileWorkListAt(gpu::ANY_HEIGHT, tileClass));
+                     });
     f.timer.stamp(f.cmd, sets_.countPairs.name());
     f.barrier();
 }

@@ -52,7 +52,7 @@ TEST_F(Bench, KernelLevelMeasuresErrorAndTime)
         EXPECT_GT(all.count, 500u) << name;
         EXPECT_LE(all.mean, all.max) << name;
         EXPECT_LE(p.error.diffuse.all.max, 1e-5) << name;
-        for (const KernelPoint::Class& c : p.classes)
+        for (const KernelPoint::Case& c : p.cases)
             EXPECT_TRUE(std::isfinite(c.both.medianNs)) << name;
     }
     const auto mean = [&](const MeasuredMethod& method) {

@@ -51,12 +51,12 @@ CullingPoint point(double froxels, uint32_t lights = 4000)
 KernelPoint kernelPoint(uint32_t type, const MeasuredMethod& method, double error)
 {
     KernelPoint out{
-        .lightType = type, .method = method, .error = {}, .worst = "alpha 0.5", .classes = {}};
+        .lightType = type, .method = method, .error = {}, .worst = "alpha 0.5", .cases = {}};
     for (int i = 0; i < 10; ++i)
         out.error.groupMeans.push_back(error * (1 + 0.1 * i));
     out.error.mirror.all = {.count = 890, .mean = 1.45 * error, .max = 20 * error};
-    out.classes.push_back(
-        {.evaluationClass = EvaluationClass::Above,
+    out.cases.push_back(
+        {.evaluationCase = EvaluationCase::Above,
          .both = {.medianNs = 3, .roundsNs = {3, 3}, .ratio = 2, .ratioLow = 1.9, .ratioHigh = 2.1},
          .specularNs = {}});
     return out;
@@ -186,7 +186,7 @@ TEST(ReportTable, CullingHasTheRatioWithinItsInterval)
 TEST(ReportTable, TimesThatNoiseHidesHaveNoNumber)
 {
     KernelLevel level = kernels(0.01, 0.1, 0.3);
-    level.points[0].classes[0].both = {.medianNs = -24.2, .roundsNs = {-24.2, -30, 5}};
+    level.points[0].cases[0].both = {.medianNs = -24.2, .roundsNs = {-24.2, -30, 5}};
     const std::string text = kernelTables(level)[1].text();
     EXPECT_TRUE(has(text, "below noise")) << text;
     EXPECT_FALSE(has(text, "-24.2")) << text;
@@ -248,8 +248,8 @@ TEST(ReportSentences, WeakSidesAreTheWorstOfTheRun)
         .kernels = kernels(0.01, 0.1, 0.3), .scenes = {}, .culling = {point(2), point(0.8, 1000)}};
     KernelPoint& disc = facts.kernels.points[3]; // conic
     disc.error.mirror.all.max = 0.777;
-    disc.classes.push_back(
-        {.evaluationClass = EvaluationClass::General,
+    disc.cases.push_back(
+        {.evaluationCase = EvaluationCase::General,
          .both = {.roundsNs = {1}, .ratio = 3.5, .ratioLow = 3.4, .ratioHigh = 3.6},
          .specularNs = {}});
     facts.kernels.points[0].error.dielectric.all.max = 0.888;

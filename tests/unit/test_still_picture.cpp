@@ -131,7 +131,7 @@ TEST(StillPicture, WaitsUntilTheEyeHasAdapted)
 TEST(StillPicture, IsNotSummedWhereSinglePixelsCount)
 {
     StillViewer viewer;
-    viewer.settings.left.heatMap = HeatMap::Class;
+    viewer.settings.left.heatMap = HeatMap::PixelClass;
     EXPECT_EQ(viewer.framesUntilSum(), 2u);
     EXPECT_TRUE(viewer.picture.isComplete());
     EXPECT_EQ(viewer.picture.summed(), 0u);

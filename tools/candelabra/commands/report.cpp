@@ -97,7 +97,7 @@ std::string pictures(const VulkanContext& context, Renderer& renderer, const Fra
 {
     std::vector<WipeChoice> choices;
     for (const HeatMap map : {HeatMap::None, HeatMap::LightsPerPixel, HeatMap::Efficiency,
-                              HeatMap::Class, HeatMap::Evaluated}) {
+                              HeatMap::PixelClass, HeatMap::Evaluated}) {
         FrameOptions options = frame;
         options.heatMap = map;
         context.submitAndWait([&](VkCommandBuffer cmd) { renderer.record(cmd, 0, options); });

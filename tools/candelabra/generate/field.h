@@ -73,12 +73,12 @@ struct Meshes {
     uint32_t lamp, tree, rod, ring, ball, hill, mast;
 };
 
-// Classes of facades by the number of storeys over which their windows are spread.
-constexpr std::array<int, 5> storeyClasses = {3, 7, 14, 26, 48};
+// The numbers of storeys over which the windows of facades are spread.
+constexpr std::array<int, 5> facadeStoreys = {3, 7, 14, 26, 48};
 
 struct Materials {
     std::vector<uint32_t> asphalt; // from wet to dry
-    std::vector<uint32_t> facades; // one per style and storey class
+    std::vector<uint32_t> facades; // one per style and number of storeys
     uint32_t pavement, water, grass, leaves, steel, painted, chrome, gold, concrete, hill, roof;
 };
 

@@ -40,15 +40,15 @@ uint32_t facade(const Kit& kit, Random& random, double height)
 {
     constexpr double storey = 3.3;
     size_t nearest = 0;
-    for (size_t i = 1; i < storeyClasses.size(); ++i) {
-        if (std::abs(storeyClasses[i] * storey - height) <
-            std::abs(storeyClasses[nearest] * storey - height)) {
+    for (size_t i = 1; i < facadeStoreys.size(); ++i) {
+        if (std::abs(facadeStoreys[i] * storey - height) <
+            std::abs(facadeStoreys[nearest] * storey - height)) {
             nearest = i;
         }
     }
     const uint32_t styles =
-        static_cast<uint32_t>(kit.material.facades.size() / storeyClasses.size());
-    return kit.material.facades[random.below(styles) * storeyClasses.size() + nearest];
+        static_cast<uint32_t>(kit.material.facades.size() / facadeStoreys.size());
+    return kit.material.facades[random.below(styles) * facadeStoreys.size() + nearest];
 }
 
 void addBuilding(Kit& kit, Random& random, std::vector<Building>& block, const Building& building)

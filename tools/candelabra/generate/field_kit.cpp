@@ -214,7 +214,7 @@ void addFacades(Kit& kit, Random& random)
     const glm::vec3 walls[] = {
         {0.42f, 0.35f, 0.28f}, {0.36f, 0.14f, 0.09f}, {0.50f, 0.48f, 0.44f}, {0.16f, 0.19f, 0.23f}};
     for (size_t style = 0; style < std::size(walls); ++style) {
-        for (const int storeys : storeyClasses) {
+        for (const int storeys : facadeStoreys) {
             Material facade;
             facade.name =
                 "facade " + std::to_string(style) + ", " + std::to_string(storeys) + " storeys";

@@ -83,15 +83,15 @@ double criticalScale(const SurfaceSample& sample, const LightReach& light)
 }
 
 // Lights of similar reach together, so that a search need not look as far as the longest of all.
-class ReachClasses
+class GridsByReach
 {
 public:
-    explicit ReachClasses(const std::vector<LightReach>& lights) : lights_(lights)
+    explicit GridsByReach(const std::vector<LightReach>& lights) : lights_(lights)
     {
-        std::map<int, std::vector<uint32_t>> classes;
+        std::map<int, std::vector<uint32_t>> byExponent;
         for (uint32_t i = 0; i < lights.size(); ++i)
-            classes[std::ilogb(lights[i].reach)].push_back(i);
-        for (auto& [exponent, members] : classes) {
+            byExponent[std::ilogb(lights[i].reach)].push_back(i);
+        for (auto& [exponent, members] : byExponent) {
             std::vector<glm::dvec3> positions;
             for (const uint32_t light : members)
                 positions.push_back(lights[light].position);
@@ -104,12 +104,12 @@ public:
                  std::vector<double>& criticals) const
     {
         criticals.clear();
-        for (const ReachClass& reachClass : grids_) {
+        for (const ReachGrid& reachGrid : grids_) {
             for (const SurfaceSample& sample : samples) {
-                reachClass.grid.visit(
-                    sample.position, scale * reachClass.maxReach, [&](uint32_t member) {
+                reachGrid.grid.visit(
+                    sample.position, scale * reachGrid.maxReach, [&](uint32_t member) {
                         const double critical =
-                            criticalScale(sample, lights_[reachClass.members[member]]);
+                            criticalScale(sample, lights_[reachGrid.members[member]]);
                         if (critical < scale)
                             criticals.push_back(critical);
                     });
@@ -120,14 +120,14 @@ public:
     }
 
 private:
-    struct ReachClass {
+    struct ReachGrid {
         double maxReach;
         LightGrid grid;
         std::vector<uint32_t> members;
     };
 
     const std::vector<LightReach>& lights_;
-    std::vector<ReachClass> grids_;
+    std::vector<ReachGrid> grids_;
 };
 
 // A scale at which every light covers every sample.
@@ -192,14 +192,14 @@ OverlapScale scaleForOverlaps(const std::vector<SurfaceSample>& samples,
     if (samples.empty() || lights.empty())
         return {};
     const std::vector<SurfaceSample> used = thinned(samples, overlaps);
-    const ReachClasses classes(lights);
+    const GridsByReach grids(lights);
     const size_t wanted = std::max<size_t>(
         1, static_cast<size_t>(std::llround(overlaps * static_cast<double>(used.size()))));
     // From below: 30% steps of the scale at most double the pairs, so the last step dominates.
     const double unlimited = unlimitedScale(used, lights);
     double scale = unlimited / 1024;
     std::vector<double> criticals;
-    const auto collect = [&](size_t limit) { classes.collect(used, scale, limit, criticals); };
+    const auto collect = [&](size_t limit) { grids.collect(used, scale, limit, criticals); };
     // Well too many pairs: stop early and look closer.
     for (collect(4 * wanted); criticals.size() > 4 * wanted; collect(4 * wanted))
         scale *= 0.5;

@@ -19,10 +19,11 @@ namespace
 static_assert(gpu::HEAT_MAP_CLASSES == CND_PIXEL_UNLISTED + 1);
 
 // Colour and text of each CndPixelClass.
-const LegendEntry classes[gpu::HEAT_MAP_CLASSES] = {{glm::vec3(0.2f), "no surface"},
-                                                    {viridis(0.25f), "one list per tile"},
-                                                    {viridis(0.6f), "a list per slice of depth"},
-                                                    {viridis(1), "no list, walks the light tree"}};
+const LegendEntry pixelClasses[gpu::HEAT_MAP_CLASSES] = {
+    {glm::vec3(0.2f), "no surface"},
+    {viridis(0.25f), "one list per tile"},
+    {viridis(0.6f), "a list per slice of depth"},
+    {viridis(1), "no list, walks the light tree"}};
 
 Legend logarithmicLegend(const char* title, uint32_t scale)
 {
@@ -49,7 +50,7 @@ Legend heatMapLegend(HeatMap which, PixelSize size)
                          scale);
     default:
         return listLegend("where a pixel finds its lights",
-                          {std::begin(classes), std::end(classes)}, scale);
+                          {std::begin(pixelClasses), std::end(pixelClasses)}, scale);
     }
 }
 
@@ -69,7 +70,7 @@ HeatMapPass::HeatMapPass(const gpu::Device& device, PixelSize size, uint32_t fra
         std::vector<uint32_t> all;
         for (uint32_t step = 0; step < gpu::HEAT_MAP_STEPS; ++step)
             all.push_back(packed(viridis(float(step) / float(gpu::HEAT_MAP_STEPS - 1))));
-        for (const LegendEntry& c : classes)
+        for (const LegendEntry& c : pixelClasses)
             all.push_back(packed(c.colour));
         all.insert(all.end(), legend.pixels.begin(), legend.pixels.end());
         colours_[i] = {gpu::createBuffer(device, "heat map colours", all.size() * sizeof all[0],

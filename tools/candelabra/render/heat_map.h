@@ -16,7 +16,7 @@ enum class HeatMap : uint32_t {
     // Lights evaluated, including loop turns in which the pixel waits for its neighbours.
     Evaluated = gpu::HEAT_MAP_EVALUATED,
     Efficiency = gpu::HEAT_MAP_EFFICIENCY, // the share of the listed lights that contribute
-    Class = gpu::HEAT_MAP_CLASS            // CndPixelClass
+    PixelClass = gpu::HEAT_MAP_CLASS       // CndPixelClass
 };
 constexpr int heatMapCount = 5; // including None
 

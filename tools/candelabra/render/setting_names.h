@@ -31,7 +31,7 @@ inline constexpr Choice<HeatMap> heatMapChoices[] = {{"none", HeatMap::None},
                                                      {"lights-per-pixel", HeatMap::LightsPerPixel},
                                                      {"evaluated", HeatMap::Evaluated},
                                                      {"efficiency", HeatMap::Efficiency},
-                                                     {"class", HeatMap::Class}};
+                                                     {"class", HeatMap::PixelClass}};
 inline constexpr Choice<CndGBufferLayout> gbufferChoices[] = {{"full", CND_GBUFFER_FULL},
                                                               {"compact", CND_GBUFFER_COMPACT}};
 inline constexpr Choice<CndToneMap> toneMapChoices[] = {{"none", CND_TONEMAP_NONE},

@@ -24,11 +24,11 @@ uint32_t groupsOf(uint32_t lightType, uint32_t groups)
     return lightType == CND_LIGHT_SPHERE ? groups : std::max(groups / 3, 20u);
 }
 
-std::vector<EvaluationClass> classesOf(uint32_t lightType)
+std::vector<EvaluationCase> casesOf(uint32_t lightType)
 {
     if (lighting::isSphere(lightType))
-        return {EvaluationClass::Above, EvaluationClass::Near, EvaluationClass::General};
-    return {EvaluationClass::Above, EvaluationClass::General};
+        return {EvaluationCase::Above, EvaluationCase::Near, EvaluationCase::General};
+    return {EvaluationCase::Above, EvaluationCase::General};
 }
 
 // Progress counts samples; a round of timing weighs as much as these.
@@ -56,7 +56,7 @@ void addErrors(const VulkanContext& context, const KernelLevelSettings& s, uint3
                           .method = method,
                           .error = kernelError(set, responses, inDouble),
                           .worst = {},
-                          .classes = {}};
+                          .cases = {}};
         point.worst = describeSample(set, point.error.mirror.all.worst);
         out.points.push_back(std::move(point));
     }
@@ -75,21 +75,21 @@ struct Plan {
     }
 };
 
-struct ClassPlan {
-    size_t point, index; // of KernelLevel::points and of its classes
+struct CasePlan {
+    size_t point, index; // of KernelLevel::points and of its cases
     int both, diffuse;
 };
 
 int addEvaluation(Plan& plan, const KernelLevelSettings& s, uint32_t type,
-                  const MeasuredMethod& method, EvaluationClass c, int base)
+                  const MeasuredMethod& method, EvaluationCase c, int base)
 {
     // Only the closed form treats lights near the horizon apart.
     const bool conic = method == CND_SPECULAR_CONIC || method == CND_SPECULAR_CONIC_FULL;
-    const EvaluationClass how = c == EvaluationClass::Near && !conic ? EvaluationClass::Above : c;
+    const EvaluationCase how = c == EvaluationCase::Near && !conic ? EvaluationCase::Above : c;
     return plan.add(
         {.name = {},
          .evaluation = {.lightType = type, .method = method, .sampleCount = s.sampleCount},
-         .evaluationClass = how,
+         .evaluationCase = how,
          .lights = c},
         base);
 }
@@ -98,9 +98,9 @@ void addTimes(const VulkanContext& context, const KernelLevelSettings& s, Progre
               KernelLevel& out)
 {
     Plan plan;
-    std::vector<ClassPlan> plans;
+    std::vector<CasePlan> plans;
     for (const uint32_t type : s.lightTypes)
-        for (const EvaluationClass c : classesOf(type)) {
+        for (const EvaluationCase c : casesOf(type)) {
             const int diffuse = addEvaluation(plan, s, type, CND_SPECULAR_NONE, c, -1);
             const int karis = addEvaluation(plan, s, type, CND_SPECULAR_KARIS, c, -1);
             plan.baseline[size_t(karis)] = karis;
@@ -111,29 +111,29 @@ void addTimes(const VulkanContext& context, const KernelLevelSettings& s, Progre
                 const int both = method == CND_SPECULAR_KARIS
                                      ? karis
                                      : addEvaluation(plan, s, type, method, c, karis);
-                out.points[i].classes.push_back({.evaluationClass = c, .both = {}});
-                plans.push_back({i, out.points[i].classes.size() - 1, both, diffuse});
+                out.points[i].cases.push_back({.evaluationCase = c, .both = {}});
+                plans.push_back({i, out.points[i].cases.size() - 1, both, diffuse});
             }
         }
-    const auto addForm = [&](uint32_t form, EvaluationClass lights) {
+    const auto addForm = [&](uint32_t form, EvaluationCase lights) {
         return plan.add({.name = {},
                          .evaluation = {.method = CND_SPECULAR_NONE},
-                         .evaluationClass = lights,
+                         .evaluationCase = lights,
                          .formFactor = true,
                          .form = form},
                         -1);
     };
-    const int loop = addForm(gpu::BENCH_FORM_FACTOR_NONE, EvaluationClass::General);
-    const int robust = addForm(gpu::BENCH_FORM_FACTOR_ROBUST, EvaluationClass::General);
-    const int naive = addForm(gpu::BENCH_FORM_FACTOR_NAIVE, EvaluationClass::General);
-    const int naiveAbove = addForm(gpu::BENCH_FORM_FACTOR_NAIVE, EvaluationClass::Above);
+    const int loop = addForm(gpu::BENCH_FORM_FACTOR_NONE, EvaluationCase::General);
+    const int robust = addForm(gpu::BENCH_FORM_FACTOR_ROBUST, EvaluationCase::General);
+    const int naive = addForm(gpu::BENCH_FORM_FACTOR_NAIVE, EvaluationCase::General);
+    const int naiveAbove = addForm(gpu::BENCH_FORM_FACTOR_NAIVE, EvaluationCase::Above);
     progress.doing("timing kernels");
     const std::vector<VariantTime> times =
         timeVariants(context, plan.variants, plan.baseline, s.timing,
                      [&] { progress.advance(samplesPerRound); });
     if (times.empty()) {
         for (KernelPoint& p : out.points)
-            p.classes.clear();
+            p.cases.clear();
         return;
     }
     const auto rounds = [&](int i) -> const std::vector<double>& {
@@ -142,8 +142,8 @@ void addTimes(const VulkanContext& context, const KernelLevelSettings& s, Progre
     const auto difference = [&](int a, int b) {
         return medianAboveNoise(differences(rounds(a), rounds(b)));
     };
-    for (const ClassPlan& c : plans) {
-        KernelPoint::Class& entry = out.points[c.point].classes[c.index];
+    for (const CasePlan& c : plans) {
+        KernelPoint::Case& entry = out.points[c.point].cases[c.index];
         entry.both = times[size_t(c.both)];
         entry.specularNs = difference(c.both, c.diffuse);
     }
@@ -179,20 +179,20 @@ std::string percent(double share)
     return threeDigits(100 * share);
 }
 
-const KernelPoint::Class* classOf(const KernelPoint& p, EvaluationClass c)
+const KernelPoint::Case* caseOf(const KernelPoint& p, EvaluationCase c)
 {
-    for (const KernelPoint::Class& entry : p.classes)
-        if (entry.evaluationClass == c)
+    for (const KernelPoint::Case& entry : p.cases)
+        if (entry.evaluationCase == c)
             return &entry;
     return nullptr;
 }
 
 } // namespace
 
-const KernelPoint::Class* mainClass(const KernelPoint& p)
+const KernelPoint::Case* mainCase(const KernelPoint& p)
 {
-    const KernelPoint::Class* above = classOf(p, EvaluationClass::Above);
-    return above ? above : classOf(p, EvaluationClass::General);
+    const KernelPoint::Case* above = caseOf(p, EvaluationCase::Above);
+    return above ? above : caseOf(p, EvaluationCase::General);
 }
 
 std::string kernelTimeKey(const std::string& light, const std::string& method)
@@ -261,11 +261,11 @@ void addTimeRow(Table& table, const KernelPoint& p)
 {
     std::vector<std::string> row{nameOf(p)};
     bool noisy = false;
-    for (const auto c : {EvaluationClass::Above, EvaluationClass::Near, EvaluationClass::General}) {
-        const KernelPoint::Class* entry = classOf(p, c);
+    for (const auto c : {EvaluationCase::Above, EvaluationCase::Near, EvaluationCase::General}) {
+        const KernelPoint::Case* entry = caseOf(p, c);
         noisy |= entry && entry->both.noisy;
         row.push_back(entry ? threeDigits(medianAboveNoise(entry->both.roundsNs)) : "-");
-        if (c != EvaluationClass::Near)
+        if (c != EvaluationCase::Near)
             row.push_back(entry ? threeDigits(entry->specularNs) : "-");
         const bool timed = entry && entry->both.ratio > 0;
         row.push_back(timed ? fmt::format("{:.2f}", entry->both.ratio) : "-");
@@ -293,7 +293,7 @@ Table timeTable(const KernelLevel& level)
         "Time per (pixel, light), diffuse and specular, on the whole device");
     uint32_t type = CND_LIGHT_TYPE_COUNT;
     for (const KernelPoint& p : level.points) {
-        if (p.classes.empty()) {
+        if (p.cases.empty()) {
             table.note("This device has no timestamps: nothing was timed.");
             return table;
         }
@@ -334,10 +334,10 @@ Json kernelJson(const KernelLevelSettings& s, const KernelLevel& level)
     Json points = Json::array();
     for (const KernelPoint& p : level.points) {
         Json times = Json::object();
-        for (const KernelPoint::Class& c : p.classes) {
+        for (const KernelPoint::Case& c : p.cases) {
             Json time = toJson(c.both);
             time["specularAloneNs"] = orNull(c.specularNs);
-            times[className(c.evaluationClass)] = time;
+            times[caseName(c.evaluationCase)] = time;
         }
         points.push_back({{"light", lightTypeName(p.lightType)},
                           {"method", methodName(p.method)},
@@ -367,7 +367,7 @@ std::string kernelPlot(const KernelLevel& level, const DeviceInfo& device)
 {
     std::vector<PlotSeries> series;
     for (const KernelPoint& p : level.points) {
-        const KernelPoint::Class* time = mainClass(p);
+        const KernelPoint::Case* time = mainCase(p);
         if (!time || p.lightType == CND_LIGHT_DISTANT_SPHERE) // the same code as spheres
             continue;
         series.push_back(

@@ -31,13 +31,13 @@ struct KernelPoint {
     MeasuredMethod method;
     KernelError error;
     std::string worst; // what is special about the worst sample with F = 1
-    struct Class {
-        EvaluationClass evaluationClass;
+    struct Case {
+        EvaluationCase evaluationCase;
         VariantTime both; // diffuse and specular; ratio: to karis
         // Both less diffuse alone; none if that is below the noise.
         std::optional<double> specularNs;
     };
-    std::vector<Class> classes; // empty without timestamps
+    std::vector<Case> cases; // empty without timestamps
 };
 
 // The time that the form factor of a sphere takes: as the engine computes it and in the naive form
@@ -59,7 +59,7 @@ struct KernelLevel {
 std::string kernelTimeKey(const std::string& light, const std::string& method);
 std::string kernelErrorKey(const std::string& light, const std::string& method);
 // What a light well above the horizon costs; null without timestamps.
-const KernelPoint::Class* mainClass(const KernelPoint& point);
+const KernelPoint::Case* mainCase(const KernelPoint& point);
 
 double kernelLevelSteps(const KernelLevelSettings& settings);
 KernelLevel measureKernelLevel(const VulkanContext& context, const KernelLevelSettings& settings,

@@ -42,10 +42,10 @@ std::vector<gpu::BenchReceiver> receiversOf(const TimingSettings& s)
     return out;
 }
 
-// Makes lights of one type for which a class is meant: spheres that cross the horizon (General),
+// Makes lights of one type for which a case is meant: spheres that cross the horizon (General),
 // lights that end 0.05 to 0.95 radii above it (Near), or lights that are higher (Above, and General
 // of other types).
-std::vector<CndLight> lightsOf(uint32_t type, EvaluationClass c, const TimingSettings& s)
+std::vector<CndLight> lightsOf(uint32_t type, EvaluationCase c, const TimingSettings& s)
 {
     Random random(s.seed, 200 + uint64_t(type) * 8 + uint64_t(c));
     std::vector<CndLight> out;
@@ -53,9 +53,9 @@ std::vector<CndLight> lightsOf(uint32_t type, EvaluationClass c, const TimingSet
         const double sine = 0.05 + 0.25 * double(random.uniform());
         const double u = double(random.uniform());
         double cosine = 2.1 * sine + (1 - 2.1 * sine) * u;
-        if (c == EvaluationClass::General && lighting::isSphere(type))
+        if (c == EvaluationCase::General && lighting::isSphere(type))
             cosine = sine * (1.8 * u - 0.9);
-        else if (c == EvaluationClass::Near)
+        else if (c == EvaluationCase::Near)
             cosine = sine * (1.05 + 0.9 * u);
         const double distance = 1 + 4 * double(random.uniform());
         const glm::dvec3 to = direction(random, cosine);
@@ -110,7 +110,7 @@ public:
             {{gpu::SPEC_LIGHTS_AS_TEXELS, lighting::lightsAsTexels(device)},
              {gpu::SPEC_SPECULAR_METHOD, v.evaluation.method.specular},
              {gpu::SPEC_LIGHT_TYPE, v.evaluation.lightType},
-             {gpu::SPEC_BENCH_EVALUATION, uint32_t(v.evaluationClass)},
+             {gpu::SPEC_BENCH_EVALUATION, uint32_t(v.evaluationCase)},
              {gpu::SPEC_BENCH_FORM_FACTOR, v.form}});
         out.bindings = out.kernel.createBindings(1);
         writeBindings(out.bindings, lights_.at(key), receivers_, output_,
@@ -140,12 +140,12 @@ private:
     TimingSettings settings_;
     gpu::Timer timer_;
     gpu::Buffer receivers_, output_, ltcTable_;
-    std::map<std::pair<uint32_t, EvaluationClass>, DeviceLights> lights_;
+    std::map<std::pair<uint32_t, EvaluationCase>, DeviceLights> lights_;
 };
 
 } // namespace
 
-const char* className(EvaluationClass c)
+const char* caseName(EvaluationCase c)
 {
     static constexpr const char* names[] = {"above", "near", "general"};
     return names[uint32_t(c)];

@@ -12,18 +12,18 @@
 namespace candelabra::app
 {
 
-enum class EvaluationClass : uint32_t {
+enum class EvaluationCase : uint32_t {
     Above = gpu::EVALUATE_ABOVE,
     Near = gpu::EVALUATE_NEAR,
     General = gpu::EVALUATE_GENERAL
 };
-const char* className(EvaluationClass c);
+const char* caseName(EvaluationCase c);
 
 struct TimedVariant {
     std::string name;
     Evaluation evaluation;
-    EvaluationClass evaluationClass = EvaluationClass::Above;
-    EvaluationClass lights = evaluationClass; // the class whose lights are evaluated
+    EvaluationCase evaluationCase = EvaluationCase::Above;
+    EvaluationCase lights = evaluationCase; // the case whose lights are evaluated
     // With formFactor only a form factor is evaluated, in the form `form` (BENCH_FORM_FACTOR_*).
     bool formFactor = false;
     uint32_t form = 0;

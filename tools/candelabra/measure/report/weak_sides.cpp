@@ -20,14 +20,14 @@ std::string rangeOf(const std::vector<double>& ratios)
     return from == to ? to : from + " to " + to;
 }
 
-const char* placeText(EvaluationClass where)
+const char* placeText(EvaluationCase where)
 {
     switch (where) {
-    case EvaluationClass::Above:
+    case EvaluationCase::Above:
         return "above the horizon of the surface";
-    case EvaluationClass::Near:
+    case EvaluationCase::Near:
         return "near the horizon of the surface";
-    case EvaluationClass::General:
+    case EvaluationCase::General:
         break;
     }
     return "across the horizon of the surface";
@@ -36,9 +36,9 @@ const char* placeText(EvaluationClass where)
 std::string slowestEvaluation(const KernelLevel& level)
 {
     const KernelPoint* worst = nullptr;
-    const KernelPoint::Class* slowest = nullptr;
+    const KernelPoint::Case* slowest = nullptr;
     for (const KernelPoint& p : level.points)
-        for (const KernelPoint::Class& c : p.classes)
+        for (const KernelPoint::Case& c : p.cases)
             if (p.method == CND_SPECULAR_CONIC &&
                 (!slowest || c.both.ratio > slowest->both.ratio)) {
                 worst = &p;
@@ -52,7 +52,7 @@ std::string slowestEvaluation(const KernelLevel& level)
         "one evaluation by conic takes up to {:.2f}{} times as long as by karis (a {} {})", t.ratio,
         interval.isKnown() ? fmt::format(" [{:.2f}, {:.2f}]", t.ratioLow, t.ratioHigh)
                            : " [too few repeats for an interval]",
-        lightTypeName(worst->lightType), placeText(slowest->evaluationClass));
+        lightTypeName(worst->lightType), placeText(slowest->evaluationCase));
 }
 
 std::string slowerImages(const std::vector<ImageScene>& scenes)
