@@ -5,6 +5,7 @@
 
 #include "candelabra_probes.h"
 #include "render/check.h"
+#include "render/image_barrier.h"
 #include "shared/host_scene.h"
 
 namespace candelabra::test
@@ -124,29 +125,6 @@ void set(float (&out)[3], const glm::dvec3& v)
 {
     for (int i = 0; i < 3; ++i)
         out[i] = float(v[i]);
-}
-
-// A layout, and the stage and access that a barrier waits for or makes visible.
-struct Use {
-    VkImageLayout layout;
-    VkPipelineStageFlags2 stage;
-    VkAccessFlags2 access;
-};
-
-VkImageMemoryBarrier2 barrierOf(const gpu::Image& image, VkImageAspectFlags aspect, const Use& from,
-                                const Use& to)
-{
-    return {.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-            .srcStageMask = from.stage,
-            .srcAccessMask = from.access,
-            .dstStageMask = to.stage,
-            .dstAccessMask = to.access,
-            .oldLayout = from.layout,
-            .newLayout = to.layout,
-            .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-            .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-            .image = image.image.get(),
-            .subresourceRange = {aspect, 0, 1, 0, 1}};
 }
 
 constexpr VkPipelineStageFlags2 depthTests =
@@ -413,25 +391,26 @@ void RasterHost::drawInRenderPass(VkCommandBuffer cmd) const
 
 void RasterHost::drawDynamic(VkCommandBuffer cmd) const
 {
-    constexpr Use before{VK_IMAGE_LAYOUT_UNDEFINED, computeShader, 0};
-    constexpr Use written{VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                          VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
-                          VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
-    constexpr Use tested{VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, depthTests,
-                         VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT |
-                             VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
+    constexpr app::ImageAccess before{computeShader, 0, VK_IMAGE_LAYOUT_UNDEFINED};
+    constexpr app::ImageAccess tested{depthTests,
+                                      VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT |
+                                          VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
+                                      VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL};
     const CndLightingFrame after = frame();
-    const Use colourRead{after.gbufferImageLayout, computeShader,
-                         VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
-    const Use depthRead{VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL, computeShader,
-                        VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
-    const auto barriers = [&](const Use& colourFrom, const Use& colourTo, const Use& depthFrom,
-                              const Use& depthTo) {
+    const app::ImageAccess colourRead{computeShader, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
+                                      after.gbufferImageLayout};
+    const app::ImageAccess depthRead{computeShader, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
+                                     VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL};
+    const auto barriers = [&](const app::ImageAccess& colourFrom, const app::ImageAccess& colourTo,
+                              const app::ImageAccess& depthFrom, const app::ImageAccess& depthTo) {
         const VkImageMemoryBarrier2 all[] = {
-            barrierOf(colour_[0], VK_IMAGE_ASPECT_COLOR_BIT, colourFrom, colourTo),
-            barrierOf(colour_[1], VK_IMAGE_ASPECT_COLOR_BIT, colourFrom, colourTo),
-            barrierOf(colour_[2], VK_IMAGE_ASPECT_COLOR_BIT, colourFrom, colourTo),
-            barrierOf(depth_, VK_IMAGE_ASPECT_DEPTH_BIT, depthFrom, depthTo)};
+            app::imageBarrier(colour_[0].image.get(), VK_IMAGE_ASPECT_COLOR_BIT, colourFrom,
+                              colourTo),
+            app::imageBarrier(colour_[1].image.get(), VK_IMAGE_ASPECT_COLOR_BIT, colourFrom,
+                              colourTo),
+            app::imageBarrier(colour_[2].image.get(), VK_IMAGE_ASPECT_COLOR_BIT, colourFrom,
+                              colourTo),
+            app::imageBarrier(depth_.image.get(), VK_IMAGE_ASPECT_DEPTH_BIT, depthFrom, depthTo)};
         const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
                                     .imageMemoryBarrierCount = 4,
                                     .pImageMemoryBarriers = all};
@@ -439,13 +418,13 @@ void RasterHost::drawDynamic(VkCommandBuffer cmd) const
     };
     const std::array<VkClearValue, 4> clears = clearValues();
     const auto attachment = [&](int i) {
-        return VkRenderingAttachmentInfo{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
-                                         .imageView =
-                                             i == 3 ? depth_.view.get() : colour_[i].view.get(),
-                                         .imageLayout = i == 3 ? tested.layout : written.layout,
-                                         .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
-                                         .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-                                         .clearValue = clears[i]};
+        return VkRenderingAttachmentInfo{
+            .sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+            .imageView = i == 3 ? depth_.view.get() : colour_[i].view.get(),
+            .imageLayout = i == 3 ? tested.layout : app::colorAttachment.layout,
+            .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
+            .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
+            .clearValue = clears[i]};
     };
     const VkRenderingAttachmentInfo colours[] = {attachment(0), attachment(1), attachment(2)};
     const VkRenderingAttachmentInfo depth = attachment(3);
@@ -455,11 +434,11 @@ void RasterHost::drawDynamic(VkCommandBuffer cmd) const
                                     .colorAttachmentCount = 3,
                                     .pColorAttachments = colours,
                                     .pDepthAttachment = &depth};
-    barriers(before, written, before, tested);
+    barriers(before, app::colorAttachment, before, tested);
     vkCmdBeginRendering(cmd, &rendering);
     drawWalls(cmd);
     vkCmdEndRendering(cmd);
-    barriers(written, colourRead, tested, depthRead);
+    barriers(app::colorAttachment, colourRead, tested, depthRead);
 }
 
 void RasterHost::draw(VkCommandBuffer cmd) const

@@ -9,6 +9,7 @@
 
 #include "gpu/lighting_harness.h"
 #include "gpu/raster_host.h"
+#include "render/image_barrier.h"
 
 namespace candelabra::test
 {
@@ -26,40 +27,9 @@ constexpr const char* depthNames[] = {"Reversed", "Standard",     "OpenGl",
 
 using Pixels = std::vector<glm::vec4>;
 
-// How the radiance image is used: its layout, and a stage and an access.
-struct RadianceUse {
-    VkImageLayout layout;
-    VkPipelineStageFlags2 stage;
-    VkAccessFlags2 access;
-};
-constexpr RadianceUse overwritten{VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                                  VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
-constexpr RadianceUse blackened{VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_2_CLEAR_BIT,
-                                VK_ACCESS_2_TRANSFER_WRITE_BIT};
-constexpr RadianceUse lightAdded{VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                                 VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
-                                     VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
-
-void radianceBarrier(VkCommandBuffer cmd, VkImage image, const RadianceUse& from,
-                     const RadianceUse& to)
-{
-    const VkImageMemoryBarrier2 barrier{
-        .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-        .srcStageMask = from.stage,
-        .srcAccessMask = from.access,
-        .dstStageMask = to.stage,
-        .dstAccessMask = to.access,
-        .oldLayout = from.layout,
-        .newLayout = to.layout,
-        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-        .image = image,
-        .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
-    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                .imageMemoryBarrierCount = 1,
-                                .pImageMemoryBarriers = &barrier};
-    vkCmdPipelineBarrier2(cmd, &info);
-}
+constexpr app::ImageAccess overwritten{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                                       VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                                       VK_IMAGE_LAYOUT_UNDEFINED};
 
 class HostTest : public LightingTest
 {
@@ -105,11 +75,7 @@ protected:
         context().submitAndWait([&](VkCommandBuffer cmd) {
             for (frame.frameSlot = 0; frame.frameSlot < 2; ++frame.frameSlot) {
                 raster.draw(cmd);
-                radianceBarrier(cmd, radiance.image.get(), overwritten, blackened);
-                const VkClearColorValue black{};
-                const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-                vkCmdClearColorImage(cmd, radiance.image.get(), blackened.layout, &black, 1, &all);
-                radianceBarrier(cmd, radiance.image.get(), blackened, lightAdded);
+                app::clearForCompute(cmd, radiance.image.get(), overwritten);
                 // A second frame may keep the lists of the first one, and its depths.
                 frame.surfacesUnchanged = frame.frameSlot && host.pass == HostPass::RenderPass;
                 EXPECT_EQ(cndRecordLighting(view, cmd, &frame, &error), CND_SUCCESS)
