@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Layouts of a host's G-buffer: valid ones are accepted, and every mistake gets its own sentence.
+#include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>

@@ -372,24 +372,25 @@ TEST_F(ReportPageTest, RowsThatContradictTheCommittedResultsAreFlagged)
             "hall,{},270,4000,8,{},\"tiles, or froxels\"\n",
             driver, width, ratio);
     };
-    EXPECT_FALSE(readCommitted(dir_ / "missing", device));
+    EXPECT_FALSE(readCommitted(path("missing"), device));
     write("culling-broken.csv", "# device: a device\n# driver: a driver\nscene,lights\nhall\n");
     write("culling-columns.csv", "# device: a device\n# driver: a driver\nscene\nhall\n");
     write("culling-head.csv", "scene\nhall\n");
     write("culling-word.csv", document("a driver", 3) + "hall,480,270,4000,8,much,froxels\n");
     write("culling-other.csv", document("another driver", 3));
-    EXPECT_TRUE(readCommitted(dir_, device)->figures.empty());
+    EXPECT_TRUE(readCommitted(path(), device)->figures.empty());
     write("culling-this.csv", document("a driver", 0.66));
     const std::vector<CullingPoint> points{point(1.5)};
-    Comparison same = compareWithCommitted(figuresOf(points), *readCommitted(dir_, device));
+    Comparison same = compareWithCommitted(figuresOf(points), *readCommitted(path(), device));
     EXPECT_EQ(same.compared, 1u);
     EXPECT_TRUE(same.contradictions.empty());
     write("culling-this.csv", document("a driver", 1.5));
-    Comparison other = compareWithCommitted(figuresOf(points), *readCommitted(dir_, device));
+    Comparison other = compareWithCommitted(figuresOf(points), *readCommitted(path(), device));
     ASSERT_EQ(other.contradictions.size(), 1u);
     EXPECT_TRUE(other.omission.empty());
     write("culling-this.csv", document("a driver", 1.5, 1280));
-    const Comparison larger = compareWithCommitted(figuresOf(points), *readCommitted(dir_, device));
+    const Comparison larger =
+        compareWithCommitted(figuresOf(points), *readCommitted(path(), device));
     EXPECT_EQ(larger.compared, 0u);
     EXPECT_TRUE(larger.contradictions.empty());
     EXPECT_TRUE(has(larger.omission, "1280x270 there, 480x270 here")) << larger.omission;

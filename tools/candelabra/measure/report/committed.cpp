@@ -79,7 +79,7 @@ std::vector<ReportedFigure> figuresOf(const KernelLevel& level)
         const std::string light = lightTypeName(p.lightType), method = methodName(p.method);
         if (!p.error.groupMeans.empty())
             out.push_back({kernelErrorKey(light, method), meanOfGroups(p.error.groupMeans), 0});
-        if (const KernelPoint::Class* time = mainClass(p); time && time->both.ratio > 0)
+        if (const KernelPoint::Case* time = mainCase(p); time && time->both.ratio > 0)
             out.push_back({kernelTimeKey(light, method),
                            {time->both.ratio, time->both.ratioLow, time->both.ratioHigh}});
     }
