@@ -4,7 +4,9 @@
 #include <cstdlib>
 #include <iostream>
 #include <memory>
+#include <optional>
 
+#include "harness/pipeline_store.h"
 #include "render/check.h"
 
 namespace candelabra::test
@@ -39,7 +41,9 @@ public:
         try {
             context_ = std::make_unique<app::VulkanContext>(app::ContextOptions{
                 .device = wanted ? wanted : "",
-                .validation = validates() ? app::Validation::On : app::Validation::Off});
+                .validation = validates() ? app::Validation::On : app::Validation::Off,
+                .engineFunctions = PipelineStore::functions});
+            store_.emplace(context_->desc().device);
             std::cout << "device: " << context_->info().name << ", " << context_->info().driver
                       << "\n";
         } catch (const gpu::Failure& failure) {
@@ -55,6 +59,7 @@ public:
             return;
         for (const std::function<void()>& destroy : destroyers)
             destroy();
+        store_.reset();
         // The log must outlive the device, to receive messages about objects that were not
         // destroyed.
         context_->destroyDevice();
@@ -66,6 +71,7 @@ public:
 
 private:
     std::unique_ptr<app::VulkanContext> context_;
+    std::optional<PipelineStore> store_;
 };
 
 ContextOwner& owner()

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // GpuTest: the fixture of tests that need a Vulkan device. All tests of a process share one
-// headless context with core and synchronisation validation enabled; any validation message fails
-// the test in which it appeared. CANDELABRA_TEST_VALIDATION=0 runs the tests without validation, on
-// machines that lack the layer. CANDELABRA_TEST_DEVICE chooses the device (as --device does).
-// Without a usable device the tests are skipped with a message, or fail if CANDELABRA_REQUIRE_GPU
-// is 1.
+// headless context with core and synchronisation validation enabled, and equal pipelines
+// (pipeline_store.h); any validation message fails the test in which it appeared.
+// CANDELABRA_TEST_VALIDATION=0 runs the tests without validation, on machines that lack the layer.
+// CANDELABRA_TEST_DEVICE chooses the device (as --device does). Without a usable device the tests
+// are skipped with a message, or fail if CANDELABRA_REQUIRE_GPU is 1.
 #pragma once
 
 #include <cstring>

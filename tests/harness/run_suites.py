@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the tests of one suite in one process: run_suite.py EXECUTABLE SUITE
+"""Runs the tests of some suites in one process: run_suites.py EXECUTABLE SUITE...
 
 If a test ends the process, its name is printed and the tests after it run in a new process.
 CANDELABRA_EXCLUDED_TESTS holds patterns of GoogleTest, separated by ':', of tests that do not run.
@@ -10,13 +10,14 @@ import os
 import subprocess
 import sys
 
-executable, suite = sys.argv[1:]
+executable, *suites = sys.argv[1:]
+chosen = ":".join(f"{suite}.*" for suite in suites)
 excluded = [pattern for pattern in os.environ.get("CANDELABRA_EXCLUDED_TESTS", "").split(":") if pattern]
 arguments = ["--gtest_shuffle"] if os.environ.get("CANDELABRA_FULL_TESTS") == "1" else []
 crashed = []
 while True:
     # After a crash, the tests that have run already are excluded too.
-    command = [executable, f"--gtest_filter={suite}.*-" + ":".join(excluded), *arguments]
+    command = [executable, f"--gtest_filter={chosen}-" + ":".join(excluded), *arguments]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                                text=True, errors="replace")
     running = None
