@@ -26,7 +26,7 @@ glm::dvec3 vec(const float (&v)[3])
     return {v[0], v[1], v[2]};
 }
 
-glm::dvec3 cornerOf(const CndLight& light, uint32_t i)
+glm::dvec3 packedCorner(const CndLight& light, uint32_t i)
 {
     const float(&corner)[2] = light.polygon->corners[i];
     return vec(light.position) + double(corner[0]) * vec(light.axisU) +
@@ -225,7 +225,7 @@ TEST(PolygonLights, FromCornersKeepsThem)
         EXPECT_EQ(light.polygon, &polygon);
         EXPECT_EQ(light.twoSided, VK_TRUE); // other fields stay
         for (uint32_t k = 0; k < outline.cornerCount; ++k)
-            EXPECT_LT(glm::distance(cornerOf(light, k), vec(corners[k])), 2e-6 * extent) << i;
+            EXPECT_LT(glm::distance(packedCorner(light, k), vec(corners[k])), 2e-6 * extent) << i;
         const glm::dvec3 normal = glm::normalize(glm::cross(vec(light.axisU), vec(light.axisV)));
         EXPECT_GT(glm::dot(normal, glm::cross(u, v)), 1 - 1e-5) << i;
     }
