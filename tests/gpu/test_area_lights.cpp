@@ -11,7 +11,6 @@
 #include "harness/full_tests.h"
 #include "reference/truth.h"
 #include "shared/area_probe.h"
-#include "shared/light_types.h"
 
 namespace candelabra::test
 {

@@ -10,7 +10,6 @@
 #include "data/path_traced.h"
 #include "reference/brdf.h"
 #include "reference/render.h"
-#include "reference/sphere_light.h"
 #include "test_reference_support.h"
 
 namespace candelabra::test

@@ -9,7 +9,6 @@
 
 #include "gltf/document.h"
 #include "gltf/nodes.h"
-#include "scene/scene.h"
 #include "scene/scene_options.h"
 
 namespace candelabra::app

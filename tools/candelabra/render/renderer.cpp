@@ -21,7 +21,6 @@
 #include "render/scene_environment.h"
 #include "render/scene_geometry.h"
 #include "scene/light_layers.h"
-#include "shared/specular_methods.h"
 
 namespace candelabra::app
 {

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "scene/mesh_bounds.h"
-
 namespace candelabra::app
 {
 namespace

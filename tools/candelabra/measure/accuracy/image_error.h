@@ -4,7 +4,6 @@
 
 #include <vector>
 
-#include "candelabra/candelabra.h"
 #include "io/image.h"
 #include "io/report.h"
 #include "measure/accuracy/flip.h"
