@@ -137,7 +137,7 @@ BAD = {
 BAD_OF = {
     ("compare", "--json"): ["no/such/folder/x.json", "."], ("devices", "--json"): ["=maybe"],
     ("truth", "--output"): ["x.png", "x", "no/such/x.exr", "folder.exr"],
-    ("truth", "--cache"): None, ("profile", "--ab"): None, ("truth", "--merge"): None,
+    ("profile", "--ab"): None, ("truth", "--merge"): None,
     ("view", "--frames"): COUNTS, ("bench skip", "--scene"): ["village"],
     ("compare", "--a"): None, ("compare", "--b"): None,
     ("bench culling", "--lights"): [*COUNTS, "0", "1,,2"], ("bench culling", "--size"): [*SIZES, "8x8,"],
@@ -154,7 +154,7 @@ BASE = {
     "compare": ["compare", "run.json", "run.json"],
     "report": ["report", "--parts=profile", "--lights=5", "--size=8x8", "--out=o"],
     "view": ["view", "--scene=hall", "--lights=5", "--size=64x64", "--frames=1"],
-    "truth": ["truth", "scene.json", "--size=4x4", "--no-cache", "--output=x.exr"],
+    "truth": ["truth", "scene.json", "--size=4x4", "--output=x.exr"],
     "bench accuracy": ["bench", "accuracy", "--groups=10", "--size=8x8", "--out=o", "-q"],
     "bench culling": ["bench", "culling", "--scenes=hall", "--lights=5", "--size=8x8", "--out=o"],
     "bench host": ["bench", "host", "--lights=5", "--rounds=1"],
@@ -181,7 +181,7 @@ COMBINATIONS = [
     (["profile", "hall", "--ab", "", "--size 8x8"], "--ab"), (["profile", "hall", "--ab", "", "", "--frames", "5"], "--ab"),
     (["profile", "hall", "--append"], "--append"), (["profile", "hall", "--json", "p", "--csv", "p"], "--csv"),
     (["profile", "hall", "--json", "noise.json", "--append"], "noise.json"),
-    (["truth"], "-o"), (["truth", "-o", "x.exr"], "SCENE"), (["truth", "scene.json", "--cache", "a", "--no-cache", "-o", "x.exr"], "--no-cache"),
+    (["truth"], "-o"), (["truth", "-o", "x.exr"], "SCENE"),
     (["truth", "scene.json", "--merge", "a", "-o", "x.exr"], "--merge"), (["truth", "--merge", "no_such.truth", "-o", "x.exr"], "no_such.truth"),
     (["truth", "--merge", "noise.truth", "-o", "x.exr"], "noise.truth"), (["truth", "--merge", "empty.truth", "-o", "x.exr"], "empty.truth"),
     (["truth", "hall", "-o", "x.exr"], "hall"), (["truth", "scene.json", "-o", "scene.json"], "scene.json"),
@@ -360,10 +360,10 @@ def refused_without_permission(folder, options):
 
 # Commands, the file name that the sentence must contain, and whether they need a device.
 WRITERS = [
-    (["truth", "scene.json", "--size", "32x32", "--tolerance", "1e-2", "--no-cache", "-q", "-o", "{}/x.exr"], "x.exr", False),
-    (["truth", "scene.json", "--size", "32x32", "--tolerance", "1e-2", "--no-cache", "-q", "-o", "{}/x.pfm"], "x.pfm", False),
-    (["truth", "scene.json", "--size", "32x32", "--tolerance", "1e-2", "--no-cache", "-q", "-o", "{}/x.hdr"], "x.hdr", False),
-    (["truth", "scene.json", "--size", "32x32", "--tolerance", "1e-2", "--no-cache", "-q", "--shard", "1/1", "-o", "{}/x.truth"], "x.truth", False),
+    (["truth", "scene.json", "--size", "32x32", "--tolerance", "1e-2", "-q", "-o", "{}/x.exr"], "x.exr", False),
+    (["truth", "scene.json", "--size", "32x32", "--tolerance", "1e-2", "-q", "-o", "{}/x.pfm"], "x.pfm", False),
+    (["truth", "scene.json", "--size", "32x32", "--tolerance", "1e-2", "-q", "-o", "{}/x.hdr"], "x.hdr", False),
+    (["truth", "scene.json", "--size", "32x32", "--tolerance", "1e-2", "-q", "--shard", "1/1", "-o", "{}/x.truth"], "x.truth", False),
     (["compare", "run.json", "run.json", "--json", "{}/x.json"], "x.json", False),
 ] + [(["render", "hall", "--lights", "5", "--size", "96x96", "-q", "-o", "{}/x." + e], "x." + e, True)
      for e in ("png", "exr", "pfm", "hdr")] + [
@@ -434,8 +434,8 @@ def test_disk(folder):
 
 # Commands whose files do not differ between runs, or whose completeness can be seen from their end.
 LONG = [
-    (["truth", "scene.json", "--size", "64x48", "--tolerance", "1e-3", "--cache", "kept", "-q", "-o", "x.exr"], False),
-    (["truth", "scene.json", "--size", "64x48", "--tolerance", "1e-3", "--no-cache", "-q", "--shard", "1/2", "-o", "x.truth"], False),
+    (["truth", "scene.json", "--size", "64x48", "--tolerance", "1e-3", "-q", "-o", "x.exr"], False),
+    (["truth", "scene.json", "--size", "64x48", "--tolerance", "1e-3", "-q", "--shard", "1/2", "-o", "x.truth"], False),
     (["render", "hall", "--lights", "50", "--size", "256x256", "--frames", "4", "-q", "-o", "x.png", "-o", "x.exr",
       "-o", "x.pfm", "-o", "x.hdr", "--json", "x.json"], True),
     (["stress", "--lights", "20,40", "--size", "64x36", "--frames", "2", "-q", "--out", "o"], True),

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests candelabra truth: images, shards and their merging, the cache. Nothing here uses Vulkan.
+// Tests candelabra truth: images, shards and their merging. Nothing here uses Vulkan.
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -15,7 +14,6 @@
 #include "harness/temporary_folder.h"
 #include "io/image.h"
 #include "truth/reference_scene.h"
-#include "truth/truth_cache.h"
 #include "truth/truth_file.h"
 #include "json/scene_json.h"
 
@@ -97,15 +95,15 @@ TEST_F(TruthCommand, MatchesThePathTracer)
 
 TEST_F(TruthCommand, ShardsMergeToTheWholeImage)
 {
-    ASSERT_EQ(runScene("whole.pfm", {"16x11", "--no-cache"}), 0) << err_;
+    ASSERT_EQ(runScene("whole.pfm", {"16x11"}), 0) << err_;
     EXPECT_EQ(err_, "");
     const Image whole = loadPfm(path("whole.pfm"));
     EXPECT_EQ(whole.width, 16u);
     EXPECT_EQ(whole.height, 11u);
     for (const char* shard : {"1/3", "2/3", "3/3"})
-        ASSERT_EQ(runScene(std::string("part") + shard[0],
-                           {"16x11", "--no-cache", "--threads", "1", "--shard", shard}),
-                  0)
+        ASSERT_EQ(
+            runScene(std::string("part") + shard[0], {"16x11", "--threads", "1", "--shard", shard}),
+            0)
             << err_;
     ASSERT_EQ(run({"--merge", path("part3"), path("part1"), path("part2"), "-q", "-o",
                    path("merged.exr")}),
@@ -113,21 +111,20 @@ TEST_F(TruthCommand, ShardsMergeToTheWholeImage)
         << err_;
     EXPECT_EQ(loadExr(path("merged.exr")).pixels, whole.pixels);
     // With more shards than rows, some shards are empty.
-    ASSERT_EQ(runScene("empty", {"4x2", "--no-cache", "--shard", "3/3"}), 0) << err_;
+    ASSERT_EQ(runScene("empty", {"4x2", "--shard", "3/3"}), 0) << err_;
     EXPECT_TRUE(loadTruthShard(path("empty")).pixels.empty());
 }
 
 TEST_F(TruthCommand, MergeRefusesWhatDoesNotBelongTogether)
 {
-    ASSERT_EQ(runScene("a1", {"8x4", "--no-cache", "--shard", "1/2"}), 0);
-    ASSERT_EQ(runScene("size2", {"8x6", "--no-cache", "--shard", "2/2"}), 0);
-    ASSERT_EQ(runScene("count2", {"8x4", "--no-cache", "--shard", "2/3"}), 0);
-    ASSERT_EQ(
-        runScene("tolerance2", {"8x4", "--no-cache", "--shard", "2/2", "--tolerance", "1e-5"}), 0);
+    ASSERT_EQ(runScene("a1", {"8x4", "--shard", "1/2"}), 0);
+    ASSERT_EQ(runScene("size2", {"8x6", "--shard", "2/2"}), 0);
+    ASSERT_EQ(runScene("count2", {"8x4", "--shard", "2/3"}), 0);
+    ASSERT_EQ(runScene("tolerance2", {"8x4", "--shard", "2/2", "--tolerance", "1e-5"}), 0);
     std::string other = dielectric;
     other.replace(other.find("1.2, -3"), 3, "1.3");
     write("scene.json", other);
-    ASSERT_EQ(runScene("scene2", {"8x4", "--no-cache", "--shard", "2/2"}), 0);
+    ASSERT_EQ(runScene("scene2", {"8x4", "--shard", "2/2"}), 0);
     const auto merge = [&](const std::string& second) {
         return run({"--merge", path("a1"), path(second), "-o", path("out.pfm")});
     };
@@ -155,39 +152,6 @@ TEST_F(TruthCommand, MergeRefusesWhatDoesNotBelongTogether)
     EXPECT_FALSE(std::filesystem::exists(path("out.pfm")));
 }
 
-TEST_F(TruthCommand, CacheRemembersWhatWasComputed)
-{
-    const auto files = [&] {
-        std::vector<std::filesystem::path> out;
-        for (const auto& entry : std::filesystem::directory_iterator(path("cache")))
-            out.push_back(entry.path());
-        return out;
-    };
-    ASSERT_EQ(runScene("a.pfm", {"8x4", "--cache", path("cache")}), 0) << err_;
-    ASSERT_EQ(files().size(), 1u);
-    // An existing entry is used, as a falsified entry shows.
-    TruthShard entry = loadTruthShard(files()[0]);
-    entry.pixels[0] = 42;
-    saveTruthShard(files()[0], entry);
-    ASSERT_EQ(runScene("b.pfm", {"8x4", "--cache", path("cache")}), 0) << err_;
-    EXPECT_EQ(loadPfm(path("b.pfm")).pixels[0], 42);
-    // An entry is not used for another tolerance, size or scene, and a damaged entry is computed
-    // again.
-    ASSERT_EQ(runScene("c.pfm", {"8x4", "--cache", path("cache"), "--tolerance", "1e-3"}), 0);
-    ASSERT_EQ(runScene("c.pfm", {"8x5", "--cache", path("cache")}), 0);
-    std::string other = dielectric;
-    other.replace(other.find("0.04"), 4, "0.05");
-    write("scene.json", other);
-    ASSERT_EQ(runScene("c.pfm", {"8x4", "--cache", path("cache")}), 0);
-    EXPECT_EQ(files().size(), 4u);
-    EXPECT_NE(loadPfm(path("c.pfm")).pixels[0], 42);
-    for (const std::filesystem::path& file : files())
-        std::filesystem::resize_file(file, std::filesystem::file_size(file) - 1);
-    ASSERT_EQ(runScene("d.pfm", {"8x4", "--cache", path("cache")}), 0) << err_;
-    EXPECT_NE(err_.find("cut short"), std::string::npos) << err_;
-    EXPECT_EQ(loadPfm(path("d.pfm")).pixels, loadPfm(path("c.pfm")).pixels);
-}
-
 TEST_F(TruthCommand, ScenesWithoutATruthAreRefused)
 {
     EXPECT_EQ(run({"hall", "-o", path("x.pfm"), "--size", "4x4"}), 2);
@@ -200,8 +164,8 @@ TEST_F(TruthCommand, VisibleLightsAreSeen)
     std::string facing = dielectric;
     facing.replace(facing.find("[0, 0, 0.6476849452607727]"), 26, "[0.5, 1.2, -3]");
     write("scene.json", facing);
-    ASSERT_EQ(runScene("off.pfm", {"3x3", "--no-cache"}), 0) << err_;
-    ASSERT_EQ(runScene("on.pfm", {"3x3", "--no-cache", "--lights-visible", "on"}), 0) << err_;
+    ASSERT_EQ(runScene("off.pfm", {"3x3"}), 0) << err_;
+    ASSERT_EQ(runScene("on.pfm", {"3x3", "--lights-visible", "on"}), 0) << err_;
     const Image off = loadPfm(path("off.pfm")), on = loadPfm(path("on.pfm"));
     EXPECT_EQ(off.pixels[12], 0); // the middle is above the horizon
     EXPECT_EQ(on.pixels[12], 10);
@@ -238,7 +202,7 @@ TEST_F(TruthCommand, EveryShapeOfLightIsSeen)
                                "alpha": 1, "metalness": 0},
                   "lights": [)" +
                                 light + R"(], "background": [0.5, 0.5, 0.5]})");
-        EXPECT_EQ(run({path("shape.json"), "-o", path("x.pfm"), "-q", "--size", "1x1", "--no-cache",
+        EXPECT_EQ(run({path("shape.json"), "-o", path("x.pfm"), "-q", "--size", "1x1",
                        "--lights-visible", "on"}),
                   0)
             << err_;
@@ -276,7 +240,7 @@ TEST_F(TruthCommand, EveryShapeOfLightIsSeen)
 TEST_F(TruthCommand, LobesShareTheLight)
 {
     const auto pixel = [&](std::vector<std::string> more) {
-        more.insert(more.begin(), {"1x1", "--no-cache"});
+        more.insert(more.begin(), {"1x1"});
         EXPECT_EQ(runScene("lobes.pfm", more), 0) << err_;
         return loadPfm(path("lobes.pfm")).pixels[0];
     };
@@ -296,52 +260,26 @@ TEST_F(TruthCommand, NothingThatIsReadIsReplaced)
         return std::string((std::istreambuf_iterator<char>(file)), {});
     };
     const std::string before = text("scene.json");
-    EXPECT_EQ(runScene("scene.json", {"4x4", "--no-cache", "--shard", "1/2"}), 2);
+    EXPECT_EQ(runScene("scene.json", {"4x4", "--shard", "1/2"}), 2);
     EXPECT_NE(err_.find("would replace"), std::string::npos) << err_;
     EXPECT_EQ(text("scene.json"), before);
-    ASSERT_EQ(runScene("part.pfm", {"4x4", "--no-cache", "--shard", "1/1"}), 0) << err_;
+    ASSERT_EQ(runScene("part.pfm", {"4x4", "--shard", "1/1"}), 0) << err_;
     const std::string part = text("part.pfm");
     EXPECT_EQ(run({"--merge", path("part.pfm"), "-o", path("part.pfm")}), 2);
     EXPECT_NE(err_.find("would replace"), std::string::npos) << err_;
     EXPECT_EQ(text("part.pfm"), part);
 }
 
-TEST(TruthCacheTest, StandardFolderIsThatOfXdg)
-{
-    const auto variable = [](const char* name) {
-        const char* value = std::getenv(name);
-        return std::string(value ? value : "");
-    };
-    const auto folder = [] { return TruthCache::standard().directory(); };
-    const std::string cache = variable("XDG_CACHE_HOME"), home = variable("HOME");
-    setenv("XDG_CACHE_HOME", "/x", 1);
-    setenv("HOME", "/h", 1);
-    EXPECT_EQ(folder(), "/x/candelabra/truth");
-    setenv("XDG_CACHE_HOME", "relative", 1);
-    EXPECT_EQ(folder(), "/h/.cache/candelabra/truth");
-    unsetenv("XDG_CACHE_HOME");
-    EXPECT_EQ(folder(), "/h/.cache/candelabra/truth");
-    setenv("HOME", "relative", 1);
-    EXPECT_EQ(folder(), "");
-    unsetenv("HOME");
-    EXPECT_EQ(folder(), "");
-    setenv("HOME", home.c_str(), 1);
-    if (!cache.empty())
-        setenv("XDG_CACHE_HOME", cache.c_str(), 1);
-}
-
 TEST_F(TruthCommand, MergeTakesNoOtherOptions)
 {
-    ASSERT_EQ(runScene("part", {"4x4", "--no-cache", "--shard", "1/1"}), 0) << err_;
+    ASSERT_EQ(runScene("part", {"4x4", "--shard", "1/1"}), 0) << err_;
     for (const std::vector<std::string>& more : {std::vector<std::string>{"--tolerance", "1e-3"},
                                                  {"--size", "2x2"},
                                                  {"--threads", "1"},
-                                                 {"--no-cache"},
                                                  {"--camera", "0"},
                                                  {"--lights-visible", "on"},
                                                  {"--lobes", "sum"},
                                                  {"--shard", "1/1"},
-                                                 {"--cache", "x"},
                                                  {"--energy-compensation", "on"}}) {
         std::vector<std::string> arguments = more;
         arguments.insert(arguments.end(), {"-o", path("x.pfm"), "--merge", path("part")});

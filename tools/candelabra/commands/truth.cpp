@@ -18,7 +18,6 @@
 #include "render/camera.h"
 #include "render/readback.h"
 #include "truth/reference_scene.h"
-#include "truth/truth_cache.h"
 #include "truth/truth_file.h"
 
 namespace candelabra::app
@@ -27,10 +26,9 @@ namespace
 {
 
 struct TruthArguments {
-    std::string scene, output, tolerance = "1e-4", threads, shard, cache;
+    std::string scene, output, tolerance = "1e-4", threads, shard;
     std::vector<std::string> merge;
     std::vector<std::string> notForMerging; // options given that --merge does not use
-    bool noCache = false;
     LobeArguments lobes;
     FrameArguments frame; // only size, camera and visible lights are options of this command
 };
@@ -132,8 +130,6 @@ int truth(const ProgramContext& program, const TruthArguments& a)
         return merge(a);
     if (a.scene.empty())
         throw UsageError("truth: give a SCENE, or shards with --merge");
-    if (a.noCache && !a.cache.empty())
-        throw UsageError("truth: --cache and --no-cache cannot be combined");
     const ShardNumber number = shardNumber(a.shard);
     if (a.shard.empty())
         requireLinearImage(a.output);
@@ -159,19 +155,11 @@ int truth(const ProgramContext& program, const TruthArguments& a)
                     a.frame.lightsVisibleOverride().value_or(scene.lightsVisible));
     shard.scene = referenceHash(model);
 
-    const TruthCache cache = a.noCache         ? TruthCache()
-                             : a.cache.empty() ? TruthCache::standard()
-                                               : TruthCache(a.cache);
-    if (cache.find(shard)) {
-        spdlog::info("{}: found in the cache", scene.name);
-    } else {
-        spdlog::info("{}: {}, {}, {}x{}, relative tolerance {:g}", scene.name,
-                     counted(scene.lights.size(), "light"),
-                     counted(scene.analyticObjects.size(), "object"), size.width, size.height,
-                     shard.tolerance);
-        compute(program, model, threads, shard);
-        cache.store(shard);
-    }
+    spdlog::info("{}: {}, {}, {}x{}, relative tolerance {:g}", scene.name,
+                 counted(scene.lights.size(), "light"),
+                 counted(scene.analyticObjects.size(), "object"), size.width, size.height,
+                 shard.tolerance);
+    compute(program, model, threads, shard);
     if (a.shard.empty())
         saveImageByExtension(a.output, {shard.width, shard.height, 3, shard.pixels});
     else
@@ -204,11 +192,6 @@ void addTruthCommand(CLI::App& app, Run& run)
         ->add_option("--merge", a->merge,
                      "merge the files of all shards, given in any order, into one image")
         ->type_name("FILE...");
-    addOption(*command, "--cache", a->cache, "DIR",
-              "directory that keeps computed images (default: candelabra/truth in $XDG_CACHE_HOME "
-              "or ~/.cache)");
-    command->add_flag("--no-cache", a->noCache,
-                      "compute the image even if it is in the cache, and do not store it there");
     command->footer(
         "Every pixel is evaluated at its centre, as in `candelabra render`. Differences\n"
         "between the two images are errors of the specular method. With conic they are\n"

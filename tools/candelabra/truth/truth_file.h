@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files that hold rows of a truth image, which is integrated in double precision. They are the
-// shards of a computation that was split into several, and the entries of the cache. A file is one
-// line of JSON that describes it, followed by the pixels as 32-bit float RGB, little-endian.
+// shards of a computation that was split into several. A file is one line of JSON that describes
+// it, followed by the pixels as 32-bit float RGB, little-endian.
 #pragma once
 
 #include <cstdint>
