@@ -570,11 +570,3 @@ TEST_F(ProgramTest, WindowShowsTheSceneAndItsPanel)
     EXPECT_GT(without.distinct, 50);
     EXPECT_GT(std::abs(with.mean - without.mean), 1); // the panel darkens a third of the window
 }
-
-TEST_F(ProgramTest, ViewWithoutDisplaySaysSo)
-{
-    const Outcome outcome = run("view hall", "env -u DISPLAY -u WAYLAND_DISPLAY");
-    EXPECT_EQ(outcome.exitCode, 2);
-    EXPECT_NE(outcome.err.find("needs a display"), std::string::npos) << outcome.err;
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-}
