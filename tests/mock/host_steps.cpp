@@ -33,18 +33,6 @@ CndResult setLights(Host& h, CndLightType type, uint32_t count, CndError* error)
     return result;
 }
 
-CndCamera camera()
-{
-    CndCamera c{};
-    for (int i = 0; i < 4; ++i)
-        c.viewFromWorld[5 * i] = 1;
-    c.clipFromView[0] = 1;
-    c.clipFromView[5] = -1;
-    c.clipFromView[11] = -1;
-    c.clipFromView[14] = 0.1f;
-    return c;
-}
-
 template <typename Frame>
 Frame surfaces()
 {
@@ -52,7 +40,7 @@ Frame surfaces()
     return {.structSize = sizeof(Frame),
             .width = 64,
             .height = 48,
-            .camera = camera(),
+            .camera = MockVulkan::camera(),
             .normalRoughness = any,
             .albedo = any,
             .specular = any,

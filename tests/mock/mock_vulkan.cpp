@@ -436,6 +436,12 @@ VkCommandBuffer MockVulkan::commandBuffer()
     return toHandle<VkCommandBuffer>(4);
 }
 
+CndCamera MockVulkan::camera()
+{
+    return {.viewFromWorld = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
+            .clipFromView = {1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 0, -1, 0, 0, 0.1f, 0}};
+}
+
 VkImageView MockVulkan::imageView()
 {
     return toHandle<VkImageView>(5);

@@ -34,6 +34,8 @@ public:
     // Stand-ins for images and buffers of the host, which the mock does not track.
     static VkImageView imageView();
     static VkBuffer hostBuffer();
+    // At the origin, with reversed depth.
+    static CndCamera camera();
 
     // Names of the calls since construction that return a VkResult.
     std::vector<const char*> failableCalls;

@@ -66,14 +66,10 @@ CndResult setEmitters(Host& h, uint32_t count, CndError* error)
 
 CndResult record(Host& h, CndError*)
 {
-    gbuffer::FrameInputs in{
-        .attachments = h.targets->attachments(), .width = frameWidth, .height = frameHeight};
-    for (int i = 0; i < 4; ++i)
-        in.camera.viewFromWorld[5 * i] = 1;
-    in.camera.clipFromView[0] = 1;
-    in.camera.clipFromView[5] = -1;
-    in.camera.clipFromView[11] = -1;
-    in.camera.clipFromView[14] = 0.1f;
+    gbuffer::FrameInputs in{.attachments = h.targets->attachments(),
+                            .width = frameWidth,
+                            .height = frameHeight,
+                            .camera = MockVulkan::camera()};
     h.raster->record(MockVulkan::commandBuffer(), *h.geometry, in);
     return CND_SUCCESS;
 }

@@ -112,10 +112,7 @@ TEST(ImageLayouts, OnlyLayoutsThatShadersReadIn)
     const VkImageView any = MockVulkan::imageView();
     CndLightingFrame frame{.width = 8,
                            .height = 8,
-                           .camera = {.viewFromWorld = {1, 0, 0, 0, 0, 1, 0, 0, //
-                                                        0, 0, 1, 0, 0, 0, 0, 1},
-                                      .clipFromView = {1, 0, 0, 0, 0, -1, 0, 0, //
-                                                       0, 0, 0, -1, 0, 0, 0.1f, 0}},
+                           .camera = MockVulkan::camera(),
                            .normalRoughness = any,
                            .albedo = any,
                            .specular = any,

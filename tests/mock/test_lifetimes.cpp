@@ -32,13 +32,7 @@ struct FlightingView {
 
 CndLightingFrame testFrame(uint32_t width, uint32_t height)
 {
-    CndLightingFrame frame{.width = width, .height = height};
-    for (int i = 0; i < 4; ++i)
-        frame.camera.viewFromWorld[5 * i] = 1;
-    frame.camera.clipFromView[0] = 1;
-    frame.camera.clipFromView[5] = -1;
-    frame.camera.clipFromView[11] = -1;
-    frame.camera.clipFromView[14] = 0.1f;
+    CndLightingFrame frame{.width = width, .height = height, .camera = MockVulkan::camera()};
     frame.normalRoughness = frame.albedo = frame.specular = frame.depth = frame.radiance =
         MockVulkan::imageView();
     frame.specularMethod = CND_SPECULAR_CONIC;
