@@ -9,6 +9,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "gpu/gbuffer_harness.h"
+#include "shared/gbuffer.h"
 
 namespace candelabra::test
 {
@@ -113,6 +114,27 @@ inline CndLight sphereLight(const glm::dvec3& position, double radius, const glm
 inline glm::dvec3 positionOf(const CndLight& light)
 {
     return glm::make_vec3(light.position);
+}
+
+// Expects that a pixel shows the emitter that is nearest along its ray, at the distance of its
+// point `p` within the share `tolerance`, and a surface that reflects nothing.
+inline void expectEmitter(const RasterImage& image, const RasterOptions& o, uint32_t x, uint32_t y,
+                          const CndLight& light, const glm::dvec3& p, double tolerance)
+{
+    const size_t i = size_t(y) * image.width + x;
+    for (int c = 0; c < 3; ++c)
+        ASSERT_EQ(image.radiance[i][c], light.emission[c]) << x << " " << y;
+    if (insideDepthRange(o, p)) { // closer lights are drawn at the near plane
+        ASSERT_LE(glm::length(worldPosition(image, x, y) - p),
+                  tolerance * glm::length(p - pixelRay(o, x, y).origin))
+            << x << " " << y << " type " << light.type;
+    }
+    if (o.layout == CND_GBUFFER_COMPACT) {
+        ASSERT_EQ(image.normalRoughness[i].x, gpu::NORMAL_ROUGHNESS_UNLIT_COMPACT);
+    } else {
+        ASSERT_EQ(image.albedo[i], glm::uvec2(0));
+        ASSERT_EQ(image.specular[i], glm::uvec2(0));
+    }
 }
 
 } // namespace candelabra::test

@@ -358,20 +358,8 @@ protected:
                 if (!winner)
                     continue;
                 ++shown;
-                for (int c = 0; c < 3; ++c)
-                    ASSERT_EQ(image.radiance[i][c], winner->emission[c]) << x << " " << y;
-                const glm::dvec3 p = ray.at(nearest);
-                if (insideDepthRange(options, p)) { // closer lights are drawn at the near plane
-                    ASSERT_LE(glm::length(worldPosition(image, x, y) - p),
-                              1e-4 * glm::length(p - ray.origin));
-                }
-                // The surface that is written reflects nothing, so lighting adds nothing.
-                if (options.layout == CND_GBUFFER_COMPACT) {
-                    ASSERT_EQ(image.normalRoughness[i].x, gpu::NORMAL_ROUGHNESS_UNLIT_COMPACT);
-                } else {
-                    ASSERT_EQ(image.albedo[i], glm::uvec2(0));
-                    ASSERT_EQ(image.specular[i], glm::uvec2(0));
-                }
+                ASSERT_NO_FATAL_FAILURE(
+                    expectEmitter(image, options, x, y, *winner, ray.at(nearest), 1e-4));
             }
         EXPECT_LE(onRim, image.depth.size() / 200);
         EXPECT_GT(shown, 100u);
