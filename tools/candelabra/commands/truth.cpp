@@ -55,10 +55,7 @@ ShardNumber shardNumber(const std::string& text)
 void requireLinearImage(const std::string& path)
 {
     requireImageExtension("-o", path);
-    std::string extension = path.substr(path.size() - 4);
-    for (char& c : extension)
-        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    if (extension == ".png")
+    if (lowerExtension(path) == ".png")
         throw UsageError("-o " + path + ": a truth is linear radiance; choose .exr, .hdr or .pfm");
 }
 

@@ -46,6 +46,8 @@ bool parseNumber(std::string_view token, auto& value)
     return error == std::errc() && end == token.data() + token.size();
 }
 
+} // namespace
+
 std::string lowerExtension(const std::string& path)
 {
     std::string extension = std::filesystem::path(path).extension().string();
@@ -53,8 +55,6 @@ std::string lowerExtension(const std::string& path)
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return extension;
 }
-
-} // namespace
 
 std::vector<uint8_t> encodePng(const std::string& path, uint32_t width, uint32_t height,
                                std::span<const uint8_t> rgb)

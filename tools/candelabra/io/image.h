@@ -57,6 +57,9 @@ void saveHdr(const std::string& path, const Image& image);
 // float can be stored, NaN too.
 void savePfm(const std::string& path, const Image& image);
 
+// Returns the extension of a file name, such as ".exr", in lower case.
+std::string lowerExtension(const std::string& path);
+
 // Writes .exr, .hdr or .pfm, depending on the extension of `path` in upper or lower case. Other
 // extensions are errors.
 void saveImageByExtension(const std::string& path, const Image& image);

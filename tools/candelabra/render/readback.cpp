@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/readback.h"
 
-#include <algorithm>
-#include <cctype>
-#include <filesystem>
-
 #include "io/error.h"
 
 namespace candelabra::app
@@ -44,14 +40,6 @@ std::vector<T> dropAlpha(std::span<const T> rgba, size_t texels)
         for (size_t c = 0; c < 3; ++c)
             out[i * 3 + c] = rgba[i * 4 + c];
     return out;
-}
-
-std::string extensionOf(const std::string& path)
-{
-    std::string extension = std::filesystem::path(path).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
 }
 
 } // namespace
@@ -157,7 +145,7 @@ uint64_t readDrawnTriangles(const VulkanContext& context, const Renderer& render
 
 void saveFrame(const VulkanContext& context, const Renderer& renderer, const std::string& path)
 {
-    if (extensionOf(path) == ".png")
+    if (lowerExtension(path) == ".png")
         savePng(path, renderer.size().width, renderer.size().height,
                 readDisplay(context, renderer));
     else
@@ -166,7 +154,7 @@ void saveFrame(const VulkanContext& context, const Renderer& renderer, const std
 
 void requireImageExtension(const std::string& option, const std::string& path)
 {
-    const std::string extension = extensionOf(path);
+    const std::string extension = lowerExtension(path);
     for (const char* known : {".png", ".exr", ".hdr", ".pfm"})
         if (extension == known)
             return;
