@@ -20,9 +20,10 @@ VkImageMemoryBarrier2 imageBarrier(VkImage image, VkImageAspectFlags aspect,
             .subresourceRange = {aspect, 0, 1, 0, 1}};
 }
 
-void transition(VkCommandBuffer cmd, VkImage image, const ImageAccess& from, const ImageAccess& to)
+void transition(VkCommandBuffer cmd, VkImage image, const ImageAccess& from, const ImageAccess& to,
+                VkImageAspectFlags aspect)
 {
-    const VkImageMemoryBarrier2 barrier = imageBarrier(image, VK_IMAGE_ASPECT_COLOR_BIT, from, to);
+    const VkImageMemoryBarrier2 barrier = imageBarrier(image, aspect, from, to);
     const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
                                 .imageMemoryBarrierCount = 1,
                                 .pImageMemoryBarriers = &barrier};

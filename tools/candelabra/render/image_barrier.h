@@ -36,8 +36,8 @@ inline constexpr ImageAccess discarded{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_
 VkImageMemoryBarrier2 imageBarrier(VkImage image, VkImageAspectFlags aspect,
                                    const ImageAccess& from, const ImageAccess& to);
 
-// Records the barrier of a colour image.
-void transition(VkCommandBuffer cmd, VkImage image, const ImageAccess& from, const ImageAccess& to);
+void transition(VkCommandBuffer cmd, VkImage image, const ImageAccess& from, const ImageAccess& to,
+                VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT);
 
 // Sets all texels to 0. Afterwards the image is in GENERAL, and compute shaders may read and write
 // it.

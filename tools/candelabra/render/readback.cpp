@@ -2,6 +2,7 @@
 #include "render/readback.h"
 
 #include "io/error.h"
+#include "render/image_barrier.h"
 
 namespace candelabra::app
 {
@@ -54,22 +55,10 @@ std::vector<uint8_t> readTexels(const VulkanContext& context, const gpu::Image& 
                      VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::Readback);
     context.submitAndWait([&](VkCommandBuffer cmd) {
         const auto move = [&](VkImageLayout from, VkImageLayout to) {
-            const VkImageMemoryBarrier2 barrier{
-                .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-                .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
-                .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
-                .oldLayout = from,
-                .newLayout = to,
-                .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                .image = image.image.get(),
-                .subresourceRange = {aspect, 0, 1, 0, 1}};
-            const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                        .imageMemoryBarrierCount = 1,
-                                        .pImageMemoryBarriers = &barrier};
-            vkCmdPipelineBarrier2(cmd, &info);
+            constexpr VkPipelineStageFlags2 all = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+            constexpr VkAccessFlags2 writes = VK_ACCESS_2_MEMORY_WRITE_BIT;
+            transition(cmd, image.image.get(), {all, writes, from},
+                       {all, writes | VK_ACCESS_2_MEMORY_READ_BIT, to}, aspect);
         };
         move(layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
         const VkBufferImageCopy region{.imageSubresource = {aspect, 0, 0, 1},
