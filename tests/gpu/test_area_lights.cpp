@@ -11,6 +11,7 @@
 #include "harness/full_tests.h"
 #include "reference/truth.h"
 #include "shared/area_probe.h"
+#include "shared/light_types.h"
 
 namespace candelabra::test
 {

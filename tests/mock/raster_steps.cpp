@@ -66,10 +66,10 @@ CndResult setEmitters(Host& h, uint32_t count, CndError* error)
 
 CndResult record(Host& h, CndError*)
 {
-    gbuffer::FrameInputs in{.attachments = h.targets->attachments(),
+    gbuffer::FrameInputs in{.camera = MockVulkan::camera(),
+                            .attachments = h.targets->attachments(),
                             .width = frameWidth,
-                            .height = frameHeight,
-                            .camera = MockVulkan::camera()};
+                            .height = frameHeight};
     h.raster->record(MockVulkan::commandBuffer(), *h.geometry, in);
     return CND_SUCCESS;
 }
