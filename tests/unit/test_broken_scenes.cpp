@@ -3,6 +3,7 @@
 // sentence. Meant to run under the address and undefined-behaviour sanitizers.
 #include <gtest/gtest.h>
 
+#include "harness/full_tests.h"
 #include "load/load.h"
 #include "scene/scene_error.h"
 #include "unit/broken_scene_cases.h"
@@ -175,6 +176,13 @@ void tryToLoad(const TemporaryFolder& folder, const std::string& name, const Byt
     }
 }
 
+// How many of `all` random files are tried: with the sanitizers, which take ten times as long, a
+// quarter of them unless --full is given.
+int tried(int all)
+{
+    return sanitized && !fullTests() ? all / 4 : all;
+}
+
 Bytes damaged(Bytes bytes, Random& random)
 {
     const uint64_t count = 1 + random.below(4);
@@ -220,12 +228,12 @@ TEST(BrokenScenes, RandomBytes)
     Random random(1);
     for (const auto& [name, bytes] : files) {
         Outcome outcome;
-        for (int i = 0; i < 700 && !testing::Test::HasFailure(); ++i) {
+        for (int i = 0; i < tried(700) && !testing::Test::HasFailure(); ++i) {
             SCOPED_TRACE(std::string(name) + ", damage " + std::to_string(i));
             tryToLoad(folder, name, damaged(bytes, random), outcome);
         }
-        EXPECT_GT(outcome.refused, 100) << name;
-        EXPECT_GT(outcome.loaded, 10) << name; // some damage must leave the scene loadable
+        EXPECT_GT(outcome.refused, tried(100)) << name;
+        EXPECT_GT(outcome.loaded, tried(10)) << name; // some damage must leave the scene loadable
     }
 }
 
@@ -248,7 +256,7 @@ TEST(BrokenScenes, RandomValues)
         for (const auto& entry : flat.items())
             pointers.push_back(entry.key());
         Outcome outcome;
-        for (int i = 0; i < 1500 && !testing::Test::HasFailure(); ++i) {
+        for (int i = 0; i < tried(1500) && !testing::Test::HasFailure(); ++i) {
             Json json = valid;
             for (uint64_t k = 0; k < 1 + random.below(3); ++k) {
                 Json::json_pointer pointer(pointers[random.below(pointers.size())]);
@@ -264,8 +272,8 @@ TEST(BrokenScenes, RandomValues)
             SCOPED_TRACE(std::string(name) + ", value " + std::to_string(i));
             tryToLoad(folder, name, Bytes(text.begin(), text.end()), outcome);
         }
-        EXPECT_GT(outcome.refused, 200) << name;
-        EXPECT_GT(outcome.loaded, 50) << name;
+        EXPECT_GT(outcome.refused, tried(200)) << name;
+        EXPECT_GT(outcome.loaded, tried(50)) << name;
     }
 }
 
