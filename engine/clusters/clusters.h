@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Clusters of surface samples, the light tree, and the light lists that each cluster gets from the
-// tree: the buffers of one view and the passes that fill them (shared/clusters.h).
+// tree: the buffers of one view and the passes that fill them (shared/cluster_data.h).
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 #include "gpu/recordings.h"
 #include "lights/light_types.h"
-#include "shared/clusters.h"
+#include "shared/cluster_data.h"
 #include "surfaces/frame_uniforms.h"
 #include "surfaces/host_gbuffer.h"
 #include "surfaces/host_kernels.h"

@@ -59,7 +59,7 @@ public:
     void releaseInclude(IncludeResult* result) override { delete result; }
 };
 
-// A kernel to compile, and the family of lights (shared/light_types.h) to compile it for; empty
+// A kernel to compile, and the family of lights (shared/light_type_list.h) to compile it for; empty
 // if the kernel does not depend on the family.
 struct Job {
     std::string kernel, family;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "gpu/kernel.h"
-#include "shared/environment.h"
+#include "shared/environment_data.h"
 #include "surfaces/frame_uniforms.h"
 #include "surfaces/host_gbuffer.h"
 #include "surfaces/host_kernels.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "gpu/kernel.h"
-#include "shared/exposure.h"
+#include "shared/exposure_data.h"
 
 namespace candelabra::exposure
 {

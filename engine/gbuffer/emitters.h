@@ -11,7 +11,7 @@
 
 #include "candelabra/candelabra.h"
 #include "gpu/kernel.h"
-#include "shared/light_types.h"
+#include "shared/light_type_list.h"
 #include "shared/raster.h"
 
 namespace candelabra::gbuffer

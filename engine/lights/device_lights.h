@@ -7,7 +7,7 @@
 #include "candelabra/candelabra.h"
 #include "gpu/kernel.h"
 #include "lights/light_order.h"
-#include "shared/device_lights.h"
+#include "shared/device_light_data.h"
 
 namespace candelabra::lighting
 {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 
 namespace candelabra::lighting
 {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "candelabra_shaders.h"
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 
 namespace candelabra::lighting
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sorts the lights of a set on the device by type, size and position (shared/light_order.h).
+// Sorts the lights of a set on the device by type, size and position (shared/light_order_data.h).
 #pragma once
 
 #include <limits>
@@ -7,7 +7,7 @@
 #include "candelabra/candelabra.h"
 #include "gpu/kernel.h"
 #include "lights/light_types.h"
-#include "shared/light_order.h"
+#include "shared/light_order_data.h"
 
 namespace candelabra::lighting
 {

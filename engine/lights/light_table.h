@@ -10,7 +10,7 @@
 #include "candelabra/candelabra.h"
 #include "lights/light_order.h"
 #include "lights/polygon_table.h"
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 
 namespace candelabra::lighting
 {

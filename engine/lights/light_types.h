@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Properties of the light types, from the list in shared/light_types.h.
+// Properties of the light types, from the list in shared/light_type_list.h.
 #pragma once
 
 #include <array>
 
 #include "candelabra/lights.h"
-#include "shared/light_types.h"
+#include "shared/light_type_list.h"
 
 namespace candelabra::lighting
 {

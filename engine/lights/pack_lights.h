@@ -8,7 +8,7 @@
 #include "candelabra/candelabra.h"
 #include "lights/influence_box.h"
 #include "lights/light_types.h"
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 
 namespace candelabra::lighting
 {

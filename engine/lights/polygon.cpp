@@ -13,7 +13,7 @@
 
 #include "gpu/failure.h"
 #include "lights/abi_vectors.h"
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 
 namespace candelabra::lighting
 {

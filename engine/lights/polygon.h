@@ -9,7 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include "candelabra/lights.h"
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 
 namespace candelabra::lighting
 {

@@ -9,7 +9,7 @@
 
 #include "candelabra/lights.h"
 #include "gpu/recordings.h"
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 
 namespace candelabra::lighting
 {

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 
 namespace candelabra::lighting
 {

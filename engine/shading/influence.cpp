@@ -8,7 +8,7 @@
 #include "candelabra_shaders.h"
 #include "lights/light_types.h"
 #include "shading/brute_rects.h"
-#include "shared/exposure.h"
+#include "shared/exposure_data.h"
 #include "surfaces/radiance_format.h"
 
 namespace candelabra::lighting

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Radii of influence that follow from an error of the display (CND_INFLUENCE_BY_ERROR,
-// shared/influence.h): what a view stores for this, and the passes that compute the radii. They run
-// after prepare_lights and before every pass that reads radii.
+// shared/influence_data.h): what a view stores for this, and the passes that compute the radii.
+// They run after prepare_lights and before every pass that reads radii.
 #pragma once
 
 #include "candelabra/candelabra.h"
 #include "clusters/clusters.h"
 #include "gpu/kernel.h"
-#include "shared/influence.h"
-#include "shared/lighting.h"
+#include "shared/influence_data.h"
+#include "shared/lighting_data.h"
 #include "surfaces/host_gbuffer.h"
 
 namespace candelabra::lighting

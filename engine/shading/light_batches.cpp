@@ -2,7 +2,7 @@
 #include "shading/light_batches.h"
 
 #include "shading/light_family.h"
-#include "shared/clusters.h"
+#include "shared/cluster_data.h"
 
 namespace candelabra::lighting
 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The family of kernels (shared/light_types.h) that evaluates a light type by a specular method.
+// The family of kernels (shared/light_type_list.h) that evaluates a light type by a specular
+// method.
 #pragma once
 
 #include <string>

@@ -13,7 +13,7 @@
 namespace candelabra::lighting
 {
 
-// The CMake build has compiled this kernel for every family of shared/light_types.h.
+// The CMake build has compiled this kernel for every family of shared/light_type_list.h.
 static_assert(std::size(spirv::shade_tiles_comp) == gpu::FAMILY_COUNT);
 // pixelOfLane() of shaders/lib/tile_pixels.glsl knows the pixels of such a tile only.
 static_assert(gpu::TILE_SIZE == 8);

@@ -10,8 +10,8 @@
 
 #include "candelabra/candelabra.h"
 #include "gpu/kernel.h"
-#include "shared/influence.h"
-#include "shared/lighting.h"
+#include "shared/influence_data.h"
+#include "shared/lighting_data.h"
 #include "surfaces/host_kernels.h"
 
 namespace candelabra::lighting

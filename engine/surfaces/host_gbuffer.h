@@ -8,7 +8,7 @@
 
 #include "gpu/failure.h"
 #include "gpu/kernel.h"
-#include "shared/host_gbuffer.h"
+#include "shared/host_gbuffer_data.h"
 #include "surfaces/stored_depth.h"
 
 namespace candelabra::surfaces

@@ -8,7 +8,7 @@
 
 #include "candelabra_shaders.h"
 #include "gpu/failure.h"
-#include "shared/light_types.h"
+#include "shared/light_type_list.h"
 
 namespace candelabra::surfaces
 {

@@ -5,7 +5,7 @@
 
 #include "candelabra/candelabra.h"
 #include "shared/frame.h"
-#include "shared/host_gbuffer.h"
+#include "shared/host_gbuffer_data.h"
 
 namespace candelabra::surfaces
 {

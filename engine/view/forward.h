@@ -3,7 +3,7 @@
 #pragma once
 
 #include "gpu/kernel.h"
-#include "shared/forward.h"
+#include "shared/forward_data.h"
 
 namespace candelabra::lighting
 {

@@ -6,7 +6,7 @@
 #include <array>
 
 #include "candelabra/candelabra.h"
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 
 namespace candelabra::lighting
 {

@@ -6,7 +6,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "shared/baselines.h"
-#include "shared/clusters.h"
+#include "shared/cluster_data.h"
 #include "lib/projection.glsl"
 #define SPHERES BASELINE_TILES_SPHERES
 #define SPHERE_WORDS BASELINE_TILES_SPHERE_WORDS

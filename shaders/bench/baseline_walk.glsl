@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads the lists of the baselines as blocks for light_walk.glsl.
 #include "shared/baselines.h"
-#include "shared/clusters.h"
+#include "shared/cluster_data.h"
 
 layout(constant_id = SPEC_BASELINE) const uint baseline = BASELINE_OF_TILES;
 layout(scalar, binding = BASELINE_HEADS) readonly buffer Heads

@@ -3,7 +3,7 @@
 // method.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "bench/lights.glsl"
+#include "bench/bench_lights.glsl"
 
 layout(local_size_x = BENCH_GROUP) in;
 layout(scalar, binding = BENCH_INPUT) readonly buffer Input

@@ -2,7 +2,7 @@
 // Times the diffuse form factor of a sphere: the shipping form against the usual one.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "bench/lights.glsl"
+#include "bench/bench_lights.glsl"
 
 layout(local_size_x = BENCH_GROUP) in;
 layout(constant_id = SPEC_BENCH_FORM_FACTOR) const uint form = BENCH_FORM_FACTOR_NONE;

@@ -3,7 +3,7 @@
 // two light counts: the difference of the times is the cost of the additional lights.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "bench/lights.glsl"
+#include "bench/bench_lights.glsl"
 
 layout(local_size_x = BENCH_GROUP) in;
 layout(constant_id = SPEC_BENCH_EVALUATION) const uint evaluation = EVALUATE_ABOVE;

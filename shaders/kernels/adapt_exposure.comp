@@ -4,7 +4,7 @@
 // a fraction, and nothing is rounded before two positions are subtracted.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shared/exposure.h"
+#include "shared/exposure_data.h"
 
 layout(local_size_x = HISTOGRAM_BINS) in;
 layout(push_constant, scalar) uniform Push

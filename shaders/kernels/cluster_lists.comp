@@ -12,7 +12,7 @@
 // (DECISIONS 12 and 42). The lists of blocks are too long if testing their lights takes more than
 // walking the tree (DECISIONS 70).
 //
-// A lane that makes the list of a tile by itself also finds the tile's height (shared/lighting.h,
+// A lane that makes the list of a tile by itself also finds the tile's height (shared/lighting_data.h,
 // ANY_HEIGHT), unless the tile is split.
 #version 460
 #extension GL_GOOGLE_include_directive : require

@@ -4,7 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/influence.glsl"
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 
 layout(local_size_x = CUT_LIGHTS_GROUP) in;
 layout(push_constant, scalar) uniform Push

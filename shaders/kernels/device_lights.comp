@@ -4,8 +4,8 @@
 // in no box of the light tree.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shared/device_lights.h"
-#include "shared/lighting.h"
+#include "shared/device_light_data.h"
+#include "shared/lighting_data.h"
 
 layout(local_size_x = DEVICE_LIGHTS_GROUP) in;
 layout(push_constant, scalar) uniform Push

@@ -2,7 +2,7 @@
 // Integrates luminance times direction over cells of an equirectangular image.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shared/environment.h"
+#include "shared/environment_data.h"
 #include "lib/equirectangular.glsl"
 #define ENVIRONMENT_IMAGE ENVIRONMENT_CELLS_IMAGE
 #include "kernels/common/environment_image.glsl"

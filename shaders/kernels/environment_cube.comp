@@ -2,7 +2,7 @@
 // Converts an equirectangular radiance image into a cube.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shared/environment.h"
+#include "shared/environment_data.h"
 #include "lib/cube.glsl"
 #include "lib/equirectangular.glsl"
 #define ENVIRONMENT_IMAGE ENVIRONMENT_CUBE_IMAGE

@@ -2,7 +2,7 @@
 // Computes one level of the prefiltered cube.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shared/environment.h"
+#include "shared/environment_data.h"
 #include "lib/cube.glsl"
 
 layout(local_size_x = ENVIRONMENT_GROUP, local_size_y = ENVIRONMENT_GROUP) in;

@@ -4,7 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/light_edits.h"
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 
 layout(local_size_x = LIGHT_EDITS_GROUP) in;
 layout(push_constant, scalar) uniform Push

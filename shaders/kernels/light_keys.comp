@@ -4,8 +4,8 @@
 // tree.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shared/light_order.h"
-#include "shared/lighting.h"
+#include "shared/light_order_data.h"
+#include "shared/lighting_data.h"
 
 layout(local_size_x = SORT_GROUP) in;
 layout(push_constant, scalar) uniform Push

@@ -4,7 +4,7 @@
 // itself.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shared/clusters.h"
+#include "shared/cluster_data.h"
 #define LIGHT_STREAM_CORE LIGHT_TREE_CORE
 #define LIGHT_STREAM_CORE_WORDS LIGHT_TREE_CORE_WORDS
 #include "kernels/common/light_stream.glsl"

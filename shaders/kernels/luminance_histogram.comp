@@ -5,7 +5,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
-#include "shared/exposure.h"
+#include "shared/exposure_data.h"
 
 layout(local_size_x = HISTOGRAM_GROUP) in;
 layout(constant_id = SPEC_METERING) const uint metering = METERING_AVERAGE;

@@ -4,7 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/light_shape.glsl"
-#include "shared/light_order.h"
+#include "shared/light_order_data.h"
 
 layout(local_size_x = PREPARE_LIGHTS_GROUP) in;
 layout(push_constant, scalar) uniform Push

@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 #include "shared/project_depth.h"
 #define GBUFFER_CODE SPEC_GBUFFER
 #define FRAME_PARAMS PROJECT_DEPTH_FRAME

@@ -3,7 +3,7 @@
 // pixels. Distant lights visible there stay, because surfaces are lit by both as well.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shared/environment.h"
+#include "shared/environment_data.h"
 #define GBUFFER_CODE SPEC_GBUFFER
 #define GBUFFER_IMAGES SHADE_ENVIRONMENT_GBUFFER
 #define FRAME_PARAMS SHADE_ENVIRONMENT_FRAME

@@ -5,7 +5,7 @@
 
 #include "lib/math.glsl"
 #include "lib/surface.glsl"
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 
 // Everything about a shaded point that does not depend on the light. Directions are unit vectors and
 // point away from the surface.

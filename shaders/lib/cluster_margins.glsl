@@ -17,7 +17,7 @@
 #ifndef CND_LIB_CLUSTER_MARGINS
 #define CND_LIB_CLUSTER_MARGINS
 
-#include "shared/clusters.h"
+#include "shared/cluster_data.h"
 #include "lib/bounds.glsl"
 
 const float POSITION_ERROR = 20.0 / 8388608.0;

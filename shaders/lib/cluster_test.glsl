@@ -4,7 +4,7 @@
 #ifndef CND_LIB_CLUSTER_TEST
 #define CND_LIB_CLUSTER_TEST
 
-#include "shared/clusters.h"
+#include "shared/cluster_data.h"
 #include "lib/bounds.glsl"
 
 // The bounds of a cluster's samples, as in Cluster, with what every test derives from them.

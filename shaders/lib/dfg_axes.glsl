@@ -5,7 +5,7 @@
 #define CND_LIB_DFG_AXES
 
 #include "shared/dfg.h"
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 #include "lib/math.glsl"
 
 const float DFG_LAST = float(DFG_SIZE - 1u);

@@ -23,6 +23,6 @@
 #ifndef FORWARD_SET
 #error "define FORWARD_SET, the number of the set of cndGetForwardSet, before lib/forward.glsl"
 #endif
-#include "shading/forward.glsl"
+#include "shading/forward_lights.glsl"
 
 #endif

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Packing and unpacking of both G-buffer layouts. A host that fills the G-buffer itself includes this
-// file. The widths in bits and the error bounds are in shared/gbuffer.h.
+// file. The widths in bits and the error bounds are in shared/gbuffer_data.h.
 #ifndef CND_LIB_GBUFFER_GLSL
 #define CND_LIB_GBUFFER_GLSL
 
 #include "lib/portable_math.glsl"
 #include "lib/surface.glsl"
-#include "shared/gbuffer.h"
+#include "shared/gbuffer_data.h"
 
 // Maps a direction onto [-1, 1]^2 by way of an octahedron (Meyer et al. 2010, "On floating-point normal
 // vectors"). The same bits on every device. The length of `n` may be anything from 2^-99 to 2^99.
@@ -44,8 +44,8 @@ vec3 dequantizeOctahedral(uvec2 codes, uint bits)
     return decodeOctahedral(vec2(k) / scale);
 }
 
-// Returns the nearest unit floats (shared/gbuffer.h) with `mantissa` bits of mantissa. Values out of
-// range are clamped, and NaN becomes 0.
+// Returns the nearest unit floats (shared/gbuffer_data.h) with `mantissa` bits of mantissa. Values out
+// of range are clamped, and NaN becomes 0.
 uvec3 encodeUnitFloats(vec3 x, uint mantissa)
 {
     const vec3 inRange = mix(vec3(0.0), min(x, 1.0), greaterThan(x, vec3(0.0)));

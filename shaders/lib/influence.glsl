@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Radii of influence from an error bound (shared/influence.h): which pixels are measured, and which bin
-// a light belongs to.
+// Radii of influence from an error bound (shared/influence_data.h): which pixels are measured, and
+// which bin a light belongs to.
 #ifndef CND_LIB_INFLUENCE
 #define CND_LIB_INFLUENCE
 
-#include "shared/influence.h"
-#include "shared/lighting.h"
+#include "shared/influence_data.h"
+#include "shared/lighting_data.h"
 #include "lib/math.glsl"
 
 // Returns the bits 0, 2, 4 ... of x as one number.

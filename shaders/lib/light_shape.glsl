@@ -4,7 +4,7 @@
 #define CND_LIB_LIGHT_SHAPE
 
 #include "lib/math.glsl"
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 
 bool isTwoSided(LightShape shape)
 {

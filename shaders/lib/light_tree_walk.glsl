@@ -4,7 +4,7 @@
 #ifndef CND_LIB_LIGHT_TREE_WALK
 #define CND_LIB_LIGHT_TREE_WALK
 
-#include "shared/clusters.h"
+#include "shared/cluster_data.h"
 
 // The state of a walk, which stands at one node. It visits all nodes of the level `top`, and below them
 // the nodes that it descends to.

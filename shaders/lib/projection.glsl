@@ -3,7 +3,7 @@
 #ifndef CND_LIB_PROJECTION
 #define CND_LIB_PROJECTION
 
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 
 // Returns an integer that is ordered like the depth; -0 gives 0.
 uint depthBits(float depth)

@@ -3,7 +3,7 @@
 #ifndef CND_LIB_SHADOW_QUERY
 #define CND_LIB_SHADOW_QUERY
 
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 
 // A surface point and a light, in view space, in metres.
 struct ShadowQuery {

@@ -3,7 +3,7 @@
 #ifndef CND_LIB_TILE_PIXELS
 #define CND_LIB_TILE_PIXELS
 
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 
 // Returns the first pixel of a tile. Tiles are numbered row by row; the last tile of a row may reach
 // beyond the image.

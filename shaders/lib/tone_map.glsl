@@ -3,7 +3,7 @@
 #ifndef CND_LIB_TONE_MAP
 #define CND_LIB_TONE_MAP
 
-#include "shared/exposure.h"
+#include "shared/exposure_data.h"
 
 // A value beyond the white of every curve, whose square is still a finite float.
 const float WHITE_BEYOND = 1e15;

@@ -4,8 +4,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared/area_probe.h"
 #include "shared/bench.h"
-#include "shared/light_types.h"
-#include "shared/lighting.h"
+#include "shared/light_type_list.h"
+#include "shared/lighting_data.h"
 #include "lib/brdf.glsl"
 #include "lib/lights/sphere.glsl"
 #include "lib/lights/sphere_cap.glsl"

@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/bench.h"
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 #include "shared/probes.h"
 #include "lib/brdf.glsl"
 #include "lib/surface.glsl"

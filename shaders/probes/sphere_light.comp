@@ -2,7 +2,7 @@
 // Test-only: the shipping functions of sphere lights, evaluated on given inputs.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 #include "shared/probes.h"
 #include "lib/gbuffer.glsl"
 #include "lib/lights/sphere.glsl"

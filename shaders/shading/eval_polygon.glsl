@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The response to a convex polygon of unit luminance.
-#include "lib/lights/rectangle.glsl"
+#include "lib/lights/rectangle_facing.glsl"
 #include "lib/outline/rectangle.glsl"
 #include "lib/specular/representative.glsl"
 #include "lib/specular/sampled.glsl"

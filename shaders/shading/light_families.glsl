@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which code the family of lights needs that a shader is compiled for. The build defines
-// LIGHT_FAMILY_<name> with a name of shared/light_types.h. Shaders of hosts (lib/forward.glsl)
+// LIGHT_FAMILY_<name> with a name of shared/light_type_list.h. Shaders of hosts (lib/forward.glsl)
 // define LIGHT_FAMILY_ALL and evaluate every light, spheres by SPECULAR_CONIC.
 #ifndef CND_SHADING_LIGHT_FAMILIES
 #define CND_SHADING_LIGHT_FAMILIES

@@ -4,7 +4,7 @@
 #ifndef CND_SHADING_LIGHT_TYPE
 #define CND_SHADING_LIGHT_TYPE
 
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 #include "shading/light_families.glsl"
 
 #ifdef LIGHT_FAMILY_ALL

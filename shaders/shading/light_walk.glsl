@@ -9,7 +9,7 @@
 // or shared memory. It may define READS_AHEAD as a constant that tells whether the lights of several
 // tests are read at once. GPUs gain from that, because a test waits long for its light, but little
 // longer for several. It may define TILE_HEIGHT, a constant that holds the height of the
-// pixel's tile: ANY_HEIGHT or another (shared/lighting.h).
+// pixel's tile: ANY_HEIGHT or another (shared/lighting_data.h).
 #ifndef CND_SHADING_LIGHT_WALK
 #define CND_SHADING_LIGHT_WALK
 

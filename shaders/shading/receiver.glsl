@@ -5,7 +5,7 @@
 
 #include "lib/brdf.glsl"
 #include "shading/light_families.glsl"
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 #ifdef LIGHT_FAMILY_CONIC
 #include "lib/specular/conic.glsl"
 #endif

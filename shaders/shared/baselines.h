@@ -4,7 +4,7 @@
 #ifndef CND_SHARED_BASELINES_H
 #define CND_SHARED_BASELINES_H
 
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 
 GPU_BEGIN
 
@@ -28,7 +28,7 @@ struct BaselineCounters {
 GPU_SIZE(BaselineCounters, 44)
 
 // --- baseline_tiles: 16x16 pixel tiles between their lowest and highest depth (Lauritzen 2010);
-// one lane per tile tests every light. A list is a chain of pages as in shared/clusters.h. On
+// one lane per tile tests every light. A list is a chain of pages as in shared/cluster_data.h. On
 // devices that limit loops, lights are tested in batches, and the pages of a later batch come first
 // in the chain.
 const uint BASELINE_TILE_SIZE = 16u; // pixels
@@ -84,7 +84,7 @@ struct BaselineScanParams {
 };
 GPU_SIZE(BaselineScanParams, 8)
 
-// --- baseline_shade, baseline_pairs, baseline_floor: the bindings of lighting.h and these
+// --- baseline_shade, baseline_pairs, baseline_floor: the bindings of lighting_data.h and these
 const uint BASELINE_HEADS = 30u;
 const uint BASELINE_ENTRIES = 31u;
 const uint BASELINE_GRID = 32u;

@@ -4,14 +4,14 @@
 #ifndef CND_SHARED_BENCH_H
 #define CND_SHARED_BENCH_H
 
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 #include "shared/prelude.h"
 
 GPU_BEGIN
 
 const uint BENCH_GROUP = 64u;
 
-const uint BENCH_CORE = 0u; // lights, as in lighting.h
+const uint BENCH_CORE = 0u; // lights, as in lighting_data.h
 const uint BENCH_CORE_WORDS = 1u;
 const uint BENCH_SHAPES = 2u;
 const uint BENCH_INPUT = 3u;
@@ -41,7 +41,7 @@ struct BenchResponse {
 };
 GPU_SIZE(BenchResponse, 12)
 
-// Specialisation constants in addition to those of lighting.h.
+// Specialisation constants in addition to those of lighting_data.h.
 const uint SPEC_BENCH_EVALUATION = 16u; // time_lights: EVALUATE_*
 // The ways in which shading/light_walk.glsl evaluates lights.
 const uint EVALUATE_ABOVE = 0u;   // sphere above the horizon

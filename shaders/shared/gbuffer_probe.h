@@ -3,7 +3,7 @@
 #ifndef CND_SHARED_GBUFFER_PROBE_H
 #define CND_SHARED_GBUFFER_PROBE_H
 
-#include "shared/gbuffer.h"
+#include "shared/gbuffer_data.h"
 #include "shared/probes.h"
 
 GPU_BEGIN

@@ -6,7 +6,7 @@
 #define CND_SHARED_PROJECT_DEPTH_H
 
 #include "shared/frame.h"
-#include "shared/host_gbuffer.h"
+#include "shared/host_gbuffer_data.h"
 
 GPU_BEGIN
 

@@ -3,8 +3,8 @@
 #ifndef CND_SHARED_RASTER_H
 #define CND_SHARED_RASTER_H
 
-#include "shared/gbuffer.h"
-#include "shared/light_types.h"
+#include "shared/gbuffer_data.h"
+#include "shared/light_type_list.h"
 
 GPU_BEGIN
 

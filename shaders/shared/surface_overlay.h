@@ -4,8 +4,8 @@
 #ifndef CND_SHARED_SURFACE_OVERLAY_H
 #define CND_SHARED_SURFACE_OVERLAY_H
 
-#include "shared/host_gbuffer.h"
-#include "shared/lighting.h"
+#include "shared/host_gbuffer_data.h"
+#include "shared/lighting_data.h"
 
 GPU_BEGIN
 

@@ -5,7 +5,7 @@
 #include "candelabra_probes.h"
 #include "gpu/probe.h"
 #include "shading/light_family.h"
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 
 namespace candelabra::test
 {

@@ -10,7 +10,7 @@
 #include "gpu/lighting_harness.h"
 #include "harness/constants.h"
 #include "reference/tone_map.h"
-#include "shared/influence.h"
+#include "shared/influence_data.h"
 
 namespace candelabra::test
 {

@@ -11,7 +11,7 @@
 #include "harness/full_tests.h"
 #include "reference/truth.h"
 #include "shared/area_probe.h"
-#include "shared/light_types.h"
+#include "shared/light_type_list.h"
 
 namespace candelabra::test
 {

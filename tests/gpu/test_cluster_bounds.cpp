@@ -12,7 +12,7 @@
 #include "candelabra_shaders.h"
 #include "clusters/clusters.h"
 #include "gpu/two_classes.h"
-#include "shared/clusters.h"
+#include "shared/cluster_data.h"
 #include "surfaces/frame_uniforms.h"
 #include "surfaces/host_gbuffer.h"
 

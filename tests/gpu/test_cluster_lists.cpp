@@ -9,7 +9,7 @@
 #include "candelabra_shaders.h"
 #include "gpu/kernel.h"
 #include "harness/gpu_fixture.h"
-#include "shared/clusters.h"
+#include "shared/cluster_data.h"
 
 namespace candelabra::test
 {

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "shared/clusters.h"
+#include "shared/cluster_data.h"
 
 namespace candelabra::test
 {

@@ -14,7 +14,7 @@
 #include "harness/full_tests.h"
 #include "reference/albedo.h"
 #include "reference/brdf.h"
-#include "shared/environment.h"
+#include "shared/environment_data.h"
 
 namespace candelabra::test
 {

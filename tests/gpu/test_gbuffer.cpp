@@ -65,7 +65,7 @@ TEST_F(GBufferPacking, ErrorsStayWithinDeclaredBounds)
 namespace
 {
 
-// The largest error of a unit float (shared/gbuffer.h): relative from UNIT_FLOAT_NORMAL on, in
+// The largest error of a unit float (shared/gbuffer_data.h): relative from UNIT_FLOAT_NORMAL on, in
 // smallest steps below.
 struct UnitFloatError {
     uint32_t mantissa;

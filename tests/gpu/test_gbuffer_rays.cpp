@@ -12,7 +12,7 @@
 #include "gpu/raster_rays.h"
 #include "harness/constants.h"
 #include "io/hash.h"
-#include "shared/gbuffer.h"
+#include "shared/gbuffer_data.h"
 
 namespace candelabra::test
 {

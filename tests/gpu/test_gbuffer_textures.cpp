@@ -6,7 +6,7 @@
 
 #include "gpu/gbuffer_harness.h"
 #include "harness/constants.h"
-#include "shared/gbuffer.h"
+#include "shared/gbuffer_data.h"
 
 namespace candelabra::test
 {

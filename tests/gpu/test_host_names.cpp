@@ -52,7 +52,7 @@ std::string sourceWithOurNames()
          {"lib/gbuffer.glsl", "lib/outline/shading.glsl", "lib/specular/conic_shading.glsl",
           "lib/specular/sampled.glsl", "lib/lights/sphere_cap.glsl", "lib/light_tree_walk.glsl",
           "lib/cluster_test.glsl", "lib/projection.glsl", "lib/shadow_query.glsl", "shared/frame.h",
-          "shared/host_gbuffer.h"})
+          "shared/host_gbuffer_data.h"})
         append(file, text, done);
     return text + R"(
 layout(set = 1, binding = 0) uniform utexture2D packedNormalImage;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tiles whose spheres are all above the horizons of their pixels are shaded by kernels that
-// evaluate no other spheres (shared/lighting.h, ANY_HEIGHT). The picture must be the same.
+// evaluate no other spheres (shared/lighting_data.h, ANY_HEIGHT). The picture must be the same.
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -8,7 +8,7 @@
 
 #include "gpu/lighting_harness.h"
 #include "gpu/module_spy.h"
-#include "shared/clusters.h"
+#include "shared/cluster_data.h"
 
 namespace candelabra::test
 {

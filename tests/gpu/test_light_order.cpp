@@ -7,8 +7,8 @@
 #include "candelabra_shaders.h"
 #include "gpu/kernel.h"
 #include "harness/gpu_fixture.h"
-#include "shared/light_order.h"
-#include "shared/lighting.h"
+#include "shared/light_order_data.h"
+#include "shared/lighting_data.h"
 
 namespace candelabra::test
 {

@@ -14,7 +14,7 @@
 #include "gpu/kernel.h"
 #include "gpu/lighting_harness.h"
 #include "gpu/module_spy.h"
-#include "shared/clusters.h"
+#include "shared/cluster_data.h"
 
 namespace candelabra::test
 {

@@ -11,7 +11,7 @@
 #include "gpu/image_format.h"
 #include "gpu/spirv_words.h"
 #include "mock/mock_vulkan.h"
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 
 namespace candelabra::test
 {

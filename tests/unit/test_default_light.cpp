@@ -7,7 +7,7 @@
 
 #include "load/brightness.h"
 #include "load/studio.h"
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 #include "unit/gltf_fixture.h"
 
 namespace candelabra::test

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "measure/pipelines/pipelines.h"
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 
 using namespace candelabra;
 using app::PipelineCost;

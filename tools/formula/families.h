@@ -3,7 +3,7 @@
 #pragma once
 
 #include "formula/formula.h"
-#include "shared/light_types.h"
+#include "shared/light_type_list.h"
 
 namespace candelabra::formula
 {

@@ -12,7 +12,7 @@
 
 #include "candelabra/lighting.h"
 #include "shared/conic_constants.h"
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 
 namespace candelabra::formula
 {
@@ -38,7 +38,7 @@ struct Receiver {
     glm::dvec3 position{0};
 };
 
-// A light of emission 1 that reaches everything, as kernels read it (shared/lighting.h).
+// A light of emission 1 that reaches everything, as kernels read it (shared/lighting_data.h).
 struct Light {
     uint32_t type = CND_LIGHT_SPHERE;
     glm::dvec3 centre; // distant types: unit direction towards the light

@@ -13,7 +13,7 @@
 #include "bench/ltc/elliptic_cone.glsl"
 #include "bench/ltc/table.glsl"
 #include "lib/brdf.glsl"
-#include "lib/lights/rectangle.glsl"
+#include "lib/lights/rectangle_facing.glsl"
 
 // The lobe with F = 1, given by a linear map with the rows rowX, rowY and n: w = (rowX.l, rowY.l, n.l).
 struct LtcLobe {

@@ -2,7 +2,7 @@
 // Bounds of surface samples: a box, a slab along an axis near their normals, a cone of normals and a
 // cone of view rays. They are made from the exact positions instead of a slice of the frustum, so that
 // lights are culled against the surfaces that are there.
-#include "shared/clusters.h"
+#include "shared/cluster_data.h"
 #include "lib/cluster_margins.glsl"
 #define GBUFFER_CODE SPEC_GBUFFER
 #define GBUFFER_IMAGES TILE_CLUSTERS_GBUFFER

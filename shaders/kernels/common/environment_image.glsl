@@ -6,7 +6,7 @@
 
 #extension GL_EXT_samplerless_texture_functions : require
 
-#include "shared/environment.h"
+#include "shared/environment_data.h"
 
 layout(binding = ENVIRONMENT_IMAGE) uniform texture2D equirectangularImage;
 

@@ -4,7 +4,7 @@
 #ifndef CND_COMMON_LIST_PAGES
 #define CND_COMMON_LIST_PAGES
 
-#include "shared/clusters.h"
+#include "shared/cluster_data.h"
 
 const uint NO_PAGE = 0u;
 
@@ -13,7 +13,7 @@ struct ListWriter {
     uint inPage;         // lights on the last page
     uint found;          // lights
     bool full;           // the buffer had no page left: lights are still counted, but not written
-    uint height;         // height of the list's tile by the lights so far (shared/lighting.h)
+    uint height;         // height of the list's tile by the lights so far (shared/lighting_data.h)
 };
 
 // A list begins as if it had a complete page.

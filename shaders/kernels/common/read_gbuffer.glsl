@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads a G-buffer of any layout. The layout is a specialisation constant, so that code for other
 // layouts is compiled away. The includer defines GBUFFER_CODE, the id of that constant, and the binding
-// numbers FRAME_PARAMS and GBUFFER_IMAGES, the first of those in shared/host_gbuffer.h. It defines
+// numbers FRAME_PARAMS and GBUFFER_IMAGES, the first of those in shared/host_gbuffer_data.h. It defines
 // GBUFFER_NORMALS_ONLY if it reads nothing else. With CANDELABRA_READ_SURFACE the host defines
 // candelabraReadSurface() for the custom layout.
 #extension GL_EXT_samplerless_texture_functions : require
-#include "shared/host_gbuffer.h"
+#include "shared/host_gbuffer_data.h"
 #include "kernels/common/frame_params.glsl"
 #include "kernels/common/gbuffer_code.glsl"
 #include "lib/gbuffer.glsl"

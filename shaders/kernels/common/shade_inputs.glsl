@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bindings that the kernels share which evaluate lights per pixel.
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 #define GBUFFER_CODE SPEC_GBUFFER
 #define GBUFFER_IMAGES SHADE_GBUFFER
 #define FRAME_PARAMS SHADE_FRAME

@@ -2,8 +2,8 @@
 // What the kernels of a sorting pass share: their parameters, the digit of a key, and who works on a
 // run. On GPUs the lanes of a group work on one run together. On llvmpipe each lane has a run of its
 // own.
-#include "shared/light_order.h"
-#include "shared/lighting.h"
+#include "shared/light_order_data.h"
+#include "shared/lighting_data.h"
 
 layout(local_size_x = SORT_GROUP) in;
 layout(constant_id = SPEC_LANES_TOGETHER) const bool lanesTogether = true;

@@ -4,7 +4,7 @@
 #ifndef CND_COMMON_TILE_CLASS
 #define CND_COMMON_TILE_CLASS
 
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 
 layout(constant_id = SPEC_FINDS_DIFFUSE) const bool findsDiffuse = false;
 

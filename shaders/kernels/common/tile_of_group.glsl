@@ -4,8 +4,8 @@
 #ifndef CND_COMMON_TILE_OF_GROUP
 #define CND_COMMON_TILE_OF_GROUP
 
-#include "shared/clusters.h"
-#include "shared/lighting.h"
+#include "shared/cluster_data.h"
+#include "shared/lighting_data.h"
 #include "lib/tile_pixels.glsl"
 #include "lib/projection.glsl"
 

@@ -8,7 +8,7 @@
 #define CND_LIB_SPECULAR_REPRESENTATIVE
 
 #include "lib/brdf.glsl"
-#include "lib/lights/rectangle.glsl"
+#include "lib/lights/rectangle_facing.glsl"
 
 float narrowing(ShadingPoint p, float extent, float invDistance)
 {

@@ -6,7 +6,7 @@
 #define CND_LIB_SPECULAR_SAMPLED
 
 #include "lib/brdf.glsl"
-#include "lib/lights/rectangle.glsl"
+#include "lib/lights/rectangle_facing.glsl"
 
 // The hash function PCG (Jarzynski and Olano 2020, "Hash functions for GPU rendering").
 uint pcgHash(uint x)

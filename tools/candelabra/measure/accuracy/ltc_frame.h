@@ -7,7 +7,7 @@
 
 #include "measure/kernels/light_kernels.h"
 #include "render/renderer.h"
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 #include "surfaces/frame_uniforms.h"
 #include "surfaces/host_gbuffer.h"
 #include "tables/dfg_table.h"

@@ -12,7 +12,7 @@
 #include "lights/light_limits.h"
 #include "lights/pack_lights.h"
 #include "measure/kernels/light_kernels.h"
-#include "shared/light_order.h"
+#include "shared/light_order_data.h"
 
 namespace candelabra::app
 {

@@ -6,7 +6,7 @@
 
 #include "render/camera.h"
 #include "render/readback.h"
-#include "shared/gbuffer.h"
+#include "shared/gbuffer_data.h"
 
 namespace candelabra::app
 {
@@ -48,7 +48,7 @@ double linearOfSrgb(double s)
     return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
 }
 
-// Decodes a unit float with `mantissa` bits of mantissa (shared/gbuffer.h).
+// Decodes a unit float with `mantissa` bits of mantissa (shared/gbuffer_data.h).
 double unitFloat(uint32_t code, uint32_t mantissa)
 {
     const uint32_t bits = code == 0 ? 0 : code + 1;

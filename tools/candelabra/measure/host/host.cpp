@@ -17,7 +17,7 @@
 #include "render/camera.h"
 #include "render/check.h"
 #include "render/renderer.h"
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 
 namespace candelabra::app
 {

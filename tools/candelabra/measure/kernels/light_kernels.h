@@ -74,8 +74,8 @@ gpu::Buffer uploadLtcTable(const gpu::Device& device);
 // Makes what kernels wrote visible to the host once it has waited.
 void shaderToHostBarrier(const gpu::Device& device, VkCommandBuffer cmd);
 
-// Writes the bindings that every kernel with bench/lights.glsl has. `ltcTable`: for rivals, which
-// have one more binding; else null.
+// Writes the bindings that every kernel with bench/bench_lights.glsl has. `ltcTable`: for rivals,
+// which have one more binding; else null.
 void writeBindings(const gpu::Bindings& bindings, const DeviceLights& lights,
                    const gpu::Buffer& receivers, const gpu::Buffer& output,
                    const gpu::Buffer* ltcTable);

@@ -11,7 +11,7 @@
 #include "render/check.h"
 #include "render/setting_names.h"
 #include "scene/light_types.h"
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 #include "shared/raster.h"
 
 namespace candelabra::app

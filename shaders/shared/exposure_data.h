@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Everything that crosses between the exposure module and its kernels.
-#ifndef CND_SHARED_EXPOSURE_H
-#define CND_SHARED_EXPOSURE_H
+#ifndef CND_SHARED_EXPOSURE_DATA_H
+#define CND_SHARED_EXPOSURE_DATA_H
 
 #include "shared/prelude.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lights in a buffer on the device that the host fills (CndDeviceLights).
-#ifndef CND_SHARED_DEVICE_LIGHTS_H
-#define CND_SHARED_DEVICE_LIGHTS_H
+#ifndef CND_SHARED_DEVICE_LIGHT_DATA_H
+#define CND_SHARED_DEVICE_LIGHT_DATA_H
 
 #include "shared/prelude.h"
 

@@ -4,11 +4,11 @@
 // Directions are in the environment's own space, with y up. A cube face is a square of side 2 at
 // distance 1; faces and texels are numbered as in Vulkan (faces +x -x +y -y +z -z). The top row of
 // the equirectangular image is +y, its middle is -z, and +x is to the right of the middle.
-#ifndef CND_SHARED_ENVIRONMENT_H
-#define CND_SHARED_ENVIRONMENT_H
+#ifndef CND_SHARED_ENVIRONMENT_DATA_H
+#define CND_SHARED_ENVIRONMENT_DATA_H
 
-#include "shared/host_gbuffer.h"
-#include "shared/lighting.h"
+#include "shared/host_gbuffer_data.h"
+#include "shared/lighting_data.h"
 
 GPU_BEGIN
 
@@ -96,7 +96,7 @@ const uint SHADE_ENVIRONMENT_PREFILTERED = 3u;
 const uint SHADE_ENVIRONMENT_IRRADIANCE = 4u;
 const uint SHADE_ENVIRONMENT_DFG = 5u;
 const uint SHADE_ENVIRONMENT_FRAME = 6u;   // FrameParams
-const uint SHADE_ENVIRONMENT_GBUFFER = 7u; // six bindings (shared/host_gbuffer.h)
+const uint SHADE_ENVIRONMENT_GBUFFER = 7u; // six bindings (shared/host_gbuffer_data.h)
 struct ShadeEnvironmentParams {
     mat3 environmentFromView; // rotation
     float lastLevel;          // last level of the prefiltered cube

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Everything that crosses between the lighting module and its kernels: records, parameters, binding
 // ids, group sizes. Positions are in view space, in metres.
-#ifndef CND_SHARED_LIGHTING_H
-#define CND_SHARED_LIGHTING_H
+#ifndef CND_SHARED_LIGHTING_DATA_H
+#define CND_SHARED_LIGHTING_DATA_H
 
 #include "shared/dfg.h"
 #include "shared/frame.h"
-#include "shared/host_gbuffer.h"
+#include "shared/host_gbuffer_data.h"
 #include "shared/lengths.h"
-#include "shared/light_types.h"
+#include "shared/light_type_list.h"
 #include "shared/prelude.h"
 #include "shared/specular_methods.h"
 
 GPU_BEGIN
 
-// The shape of an emitter. Only the members that its type uses (light_types.h) have a meaning.
+// The shape of an emitter. Only the members that its type uses (light_type_list.h) have a meaning.
 struct LightShape {
     vec3 axisU;   // m; disc: unit normal; spot: unit, the way the light travels
     float radius; // m; distant sphere: the sine of its angular radius; polygon: how many corners
@@ -73,7 +73,7 @@ const float INFLUENCE2_OF_NONE = -1.0f;
 const uint LIGHT_CORE_STRIDE = 2u;
 
 const uint TILE_SIZE = 8u; // pixels; one shading workgroup per tile
-// The light tree (shared/clusters.h) over the lights of one type.
+// The light tree (shared/cluster_data.h) over the lights of one type.
 struct TreeShape {
     uint firstLight, lightCount;
     uint firstNode; // index in the node buffer
@@ -108,9 +108,9 @@ struct LightingCounters {
     uint unlistedClusters;
     uint splitTiles;
     uint surfaceTiles[TILE_CLASSES];
-    uint deviceLights, rejectedLights; // shared/device_lights.h
+    uint deviceLights, rejectedLights; // shared/device_light_data.h
     float cutBelow;                    // lx; lights are cut at this illuminance
-                                       // (shared/influence.h); 0: no light is cut
+                                       // (shared/influence_data.h); 0: no light is cut
     uvec2 listedPairs;                 // 64 bit: low, high
     uvec2 evaluatedPairs;
     uvec2 insidePairs;
@@ -123,7 +123,7 @@ const uint PREPARE_LIGHTS_GROUP = 64u;
 const uint PREPARE_LIGHTS_RECORDS = 0u;
 const uint PREPARE_LIGHTS_CORE = 1u;
 const uint PREPARE_LIGHTS_SHAPES = 2u;
-const uint PREPARE_LIGHTS_ORDER = 3u;    // shared/light_order.h
+const uint PREPARE_LIGHTS_ORDER = 3u;    // shared/light_order_data.h
 const uint PREPARE_LIGHTS_IDS = 4u;      // ids in sorted order
 const uint PREPARE_LIGHTS_POLYGONS = 5u; // PolygonRecord
 // Specialisation constant. 1: write the ids; 0: no kernel or shader reads them.
@@ -150,7 +150,7 @@ const uint SHADE_PAIRS = 5u;     // count_pairs: CndLightingFrame::pairImage
 const uint SHADE_DEPTH = 6u;
 const uint SHADE_RADIANCE = 7u;
 const uint SHADE_DFG = 8u; // table of the directional albedo (shared/dfg.h)
-// The next four are not in shade_brute (shared/clusters.h):
+// The next four are not in shade_brute (shared/cluster_data.h):
 const uint SHADE_TILES = 9u;
 const uint SHADE_LISTS = 10u;
 const uint SHADE_ENTRIES = 11u;
@@ -158,7 +158,7 @@ const uint SHADE_WORK = 12u;     // TILE_WORK_LISTS WorkLists: the tiles to shad
 const uint SHADE_COUNTERS = 13u; // count_pairs
 const uint SHADE_NODES = 14u;    // shade_unlisted
 const uint SHADE_NODE_WORDS = 15u;
-const uint SHADE_GBUFFER = 16u;      // six bindings (shared/host_gbuffer.h)
+const uint SHADE_GBUFFER = 16u;      // six bindings (shared/host_gbuffer_data.h)
 const uint SHADE_ENTRY_TEXELS = 22u; // the same buffer as SHADE_ENTRIES
 const uint PIXEL_OF_TILE = 1u;       // the values of CndPixelClass
 const uint PIXEL_OF_SLICE = 2u;
@@ -177,7 +177,7 @@ struct ShadeTilesParams {
 GPU_SIZE(ShadeTilesParams, 8)
 
 struct ShadeUnlistedParams {
-    uint listHead;    // LIST_UNLISTED or LIST_LONG (shared/clusters.h): the dispatch shades the
+    uint listHead;    // LIST_UNLISTED or LIST_LONG (shared/cluster_data.h): the dispatch shades the
                       //   clusters with this list head
     uint topLevel;    // the walk begins at this level of the light tree, or at the tree's highest
                       //   level if that is lower
@@ -204,7 +204,7 @@ const uint SPEC_LIGHTS_AS_TEXELS = 0u; // 1: read core and list entries as texel
                                        // 0: as storage buffers
 const uint SPEC_SPECULAR_METHOD = 1u;  // SPECULAR_*
 const uint SPEC_LIGHT_TYPE = 2u;       // LIGHT_* of every light in the batch
-const uint SPEC_GBUFFER = 3u;          // layout of the G-buffer (shared/host_gbuffer.h)
+const uint SPEC_GBUFFER = 3u;          // layout of the G-buffer (shared/host_gbuffer_data.h)
 const uint SPEC_TILE_CLASS = 4u;       // CLASS_* of the tiles: which work list
 const uint SPEC_FINDS_DIFFUSE = 5u;    // tile_clusters: 1: find the tiles of CLASS_DIFFUSE
 // Chooses the form of kernels that have two. 1: the lanes of a group share the work on one cluster,

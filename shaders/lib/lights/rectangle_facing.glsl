@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which side of a rectangle light a point sees.
-#ifndef CND_LIB_LIGHTS_RECTANGLE
-#define CND_LIB_LIGHTS_RECTANGLE
+#ifndef CND_LIB_LIGHTS_RECTANGLE_FACING
+#define CND_LIB_LIGHTS_RECTANGLE_FACING
 
 #include "lib/math.glsl"
 

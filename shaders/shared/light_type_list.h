@@ -2,8 +2,8 @@
 // The one list of light types with the fields that each type uses, and the one list of families. A
 // family is a set of light types, or of a light type with some specular methods, whose evaluation
 // shares code.
-#ifndef CND_SHARED_LIGHT_TYPES_H
-#define CND_SHARED_LIGHT_TYPES_H
+#ifndef CND_SHARED_LIGHT_TYPE_LIST_H
+#define CND_SHARED_LIGHT_TYPE_LIST_H
 
 #include "shared/prelude.h"
 

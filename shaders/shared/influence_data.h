@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Radii of influence from an error bound (CND_INFLUENCE_BY_ERROR): what crosses between the
 // lighting module and the kernels that measure the error and choose the radii.
-#ifndef CND_SHARED_INFLUENCE_H
-#define CND_SHARED_INFLUENCE_H
+#ifndef CND_SHARED_INFLUENCE_DATA_H
+#define CND_SHARED_INFLUENCE_DATA_H
 
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 
 GPU_BEGIN
 

@@ -3,10 +3,10 @@
 // neighbours in memory are neighbours in space. It is a stable radix sort: runs of consecutive
 // lights are counted and scattered, so the order depends only on the lights. A run is the work of a
 // group on GPUs, and of a lane on llvmpipe.
-#ifndef CND_SHARED_LIGHT_ORDER_H
-#define CND_SHARED_LIGHT_ORDER_H
+#ifndef CND_SHARED_LIGHT_ORDER_DATA_H
+#define CND_SHARED_LIGHT_ORDER_DATA_H
 
-#include "shared/light_types.h"
+#include "shared/light_type_list.h"
 #include "shared/prelude.h"
 
 GPU_BEGIN

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The functions that hosts' shaders get by including lib/forward.glsl, which says how to use them, and
 // the bindings of the descriptor set FORWARD_SET.
-#ifndef CND_SHADING_FORWARD
-#define CND_SHADING_FORWARD
+#ifndef CND_SHADING_FORWARD_LIGHTS
+#define CND_SHADING_FORWARD_LIGHTS
 
 #extension GL_EXT_samplerless_texture_functions : require
-#include "shared/forward.h"
+#include "shared/forward_data.h"
 #include "lib/gbuffer.glsl"
 #include "lib/bounds.glsl"
 #include "lib/brdf.glsl"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layout of the G-buffer, which may be one of the host (CndGBufferDesc), as the bit fields of
 // one specialisation constant, and the bindings of its images.
-#ifndef CND_SHARED_HOST_GBUFFER_H
-#define CND_SHARED_HOST_GBUFFER_H
+#ifndef CND_SHARED_HOST_GBUFFER_DATA_H
+#define CND_SHARED_HOST_GBUFFER_DATA_H
 
-#include "shared/gbuffer.h"
+#include "shared/gbuffer_data.h"
 
 GPU_BEGIN
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The light tree, the clusters of surface samples, and the lists of lights of the clusters.
-#ifndef CND_SHARED_CLUSTERS_H
-#define CND_SHARED_CLUSTERS_H
+#ifndef CND_SHARED_CLUSTER_DATA_H
+#define CND_SHARED_CLUSTER_DATA_H
 
-#include "shared/lighting.h"
+#include "shared/lighting_data.h"
 
 GPU_BEGIN
 
@@ -110,8 +110,8 @@ const uint TILE_CLUSTERS_TILES = 2u;
 const uint TILE_CLUSTERS_SURFACES = 3u; // TILE_WORK_LISTS WorkLists: tiles with a surface
 const uint TILE_CLUSTERS_SPLITS = 4u;   // WorkList: tiles to be split
 const uint TILE_CLUSTERS_FRAME = 5u;    // FrameParams
-const uint TILE_CLUSTERS_GBUFFER = 6u;  // six bindings (shared/host_gbuffer.h); split_tiles has
-                                        // those of the normals only
+const uint TILE_CLUSTERS_GBUFFER = 6u; // six bindings (shared/host_gbuffer_data.h); split_tiles has
+                                       // those of the normals only
 struct TileClustersParams {
     uint tileCount;
     uint firstSplit, splitCapacity; // first cluster of split tiles; how many tiles can be split
@@ -123,8 +123,8 @@ GPU_SIZE(TileClustersParams, 16)
 // makes the slices of a tile; together, TILE_SIZE lanes make a slice.
 const uint SPLIT_TILES_GROUP = 64u;
 
-// --- block_clusters: clusters of blocks from the clusters of their tiles, one group per block or one
-// lane per slice
+// --- block_clusters: clusters of blocks from the clusters of their tiles, one group per block or
+// one lane per slice
 const uint BLOCK_CLUSTERS_GROUP = 64u;
 const uint BLOCK_CLUSTERS_CLUSTERS = 0u;
 const uint BLOCK_CLUSTERS_TILES = 1u;
@@ -137,10 +137,10 @@ struct BlockClustersParams {
 };
 GPU_SIZE(BlockClustersParams, 24)
 
-// --- cluster_lists: makes the ordered list of a cluster: of a block's from the tree, of a tile's from
-// the list of its parent, or from the tree if that has none. One group per cluster, or one lane. 32
-// lanes are one subgroup of many GPUs, which then need no barriers, and a word has a bit for each.
-// With 64, short lists would leave more lanes idle.
+// --- cluster_lists: makes the ordered list of a cluster: of a block's from the tree, of a tile's
+// from the list of its parent, or from the tree if that has none. One group per cluster, or one
+// lane. 32 lanes are one subgroup of many GPUs, which then need no barriers, and a word has a bit
+// for each. With 64, short lists would leave more lanes idle.
 const uint CLUSTER_LISTS_GROUP = 32u;
 // Specialisation constant: lanes of a group, 8, 16 or 32. Tests choose fewer than
 // CLUSTER_LISTS_GROUP, so that a group is one subgroup on devices with small ones.

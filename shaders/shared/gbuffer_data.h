@@ -21,8 +21,8 @@
 // has the largest code, 2^(m+3) - 1, and the smallest step 2^-(m+7) is the only multiple of it that
 // is left out. Shaders make the codes from the bits of floats, so that they are the same on every
 // device.
-#ifndef CND_SHARED_GBUFFER_H
-#define CND_SHARED_GBUFFER_H
+#ifndef CND_SHARED_GBUFFER_DATA_H
+#define CND_SHARED_GBUFFER_DATA_H
 
 #include "shared/prelude.h"
 
