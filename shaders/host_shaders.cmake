@@ -69,7 +69,7 @@ function(candelabra_declared_names variable code)
     list(APPEND found ${instances})
     string(REGEX MATCHALL "# ?define ${name}" macros "${code}")
     list(APPEND found ${macros})
-    # "evaluate_##FAMILY", and the arguments of "EVALUATION(evaluateNear, sphereNear)".
+    # "evaluate_##FAMILY", and the arguments of "EVALUATION(name, response)".
     string(REGEX MATCHALL "${name}_##" pasted "${code}")
     list(TRANSFORM pasted REPLACE "##" "")
     string(REGEX MATCHALL "\n[A-Z][A-Z0-9_]*\\([^)\n]*" calls "${code}")
@@ -178,8 +178,8 @@ endfunction()
 # functions of hosts, and sets candelabra_compiled_shaders to all files.
 function(candelabra_host_shaders destination)
     set(root ${CMAKE_CURRENT_FUNCTION_LIST_DIR})
-    set(kernels shade_tiles shade_unlisted shade_brute count_pairs tile_clusters split_tiles surface_overlay
-        shade_environment)
+    set(kernels shade_tiles shade_unlisted shade_brute count_pairs tile_clusters split_tiles
+        cpu/tile_clusters cpu/split_tiles surface_overlay shade_environment)
     list(TRANSFORM kernels REPLACE "(.+)" "kernels/\\1.comp")
     candelabra_glsl_closure(included ${root} lib/forward.glsl lib/gbuffer.glsl)
     candelabra_glsl_closure(compiled ${root} ${included} ${kernels})

@@ -59,22 +59,21 @@ VkDeviceSize workBytes(uint32_t lists, uint32_t items)
 ClusterKernels::ClusterKernels(const gpu::Device& device, const surfaces::HostKernels& host,
                                uint32_t gbuffer, bool findsDiffuse)
     : lanesTogether(!device.lanesAreCpuVector),
-      lightTree(device, spirv::light_tree_comp,
-                {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(device)},
-                 {gpu::SPEC_LANES_TOGETHER, lanesTogether}}),
-      tileClusters(device, host.used(spirv::tile_clusters_comp),
-                   {{gpu::SPEC_GBUFFER, gbuffer},
-                    {gpu::SPEC_FINDS_DIFFUSE, findsDiffuse},
-                    {gpu::SPEC_LANES_TOGETHER, lanesTogether}},
-                   host.setLayout()),
-      splitTiles(device, host.used(spirv::split_tiles_comp),
-                 {{gpu::SPEC_GBUFFER, gbuffer}, {gpu::SPEC_LANES_TOGETHER, lanesTogether}},
-                 host.setLayout()),
-      blockClusters(device, spirv::block_clusters_comp,
-                    {{gpu::SPEC_LANES_TOGETHER, lanesTogether}}),
-      clusterLists(device, spirv::cluster_lists_comp,
-                   {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(device)},
-                    {gpu::SPEC_LANES_TOGETHER, lanesTogether}})
+      lightTree(device, lanesTogether ? spirv::light_tree_comp : spirv::cpu_light_tree_comp,
+                {{gpu::SPEC_FOR_CPU, forCpu(device)}}),
+      tileClusters(
+          device,
+          host.used(lanesTogether ? spirv::tile_clusters_comp : spirv::cpu_tile_clusters_comp),
+          {{gpu::SPEC_GBUFFER, gbuffer}, {gpu::SPEC_FINDS_DIFFUSE, findsDiffuse}},
+          host.setLayout()),
+      splitTiles(device,
+                 host.used(lanesTogether ? spirv::split_tiles_comp : spirv::cpu_split_tiles_comp),
+                 {{gpu::SPEC_GBUFFER, gbuffer}}, host.setLayout()),
+      blockClusters(device,
+                    lanesTogether ? spirv::block_clusters_comp : spirv::cpu_block_clusters_comp),
+      clusterLists(device,
+                   lanesTogether ? spirv::cluster_lists_comp : spirv::cpu_cluster_lists_comp,
+                   {{gpu::SPEC_FOR_CPU, forCpu(device)}})
 {
 }
 
@@ -181,40 +180,38 @@ void Clusters::grow(uint32_t lightCapacity, const LightTypeCounts& types)
 void Clusters::writeBindings(uint32_t slot, const LightTypeCounts& types, const Inputs& in) const
 {
     using namespace gpu;
-    treeSets_.write(slot, {Binding::ofTexels(LIGHT_TREE_CORE, in.core),
-                           Binding::of(LIGHT_TREE_CORE_WORDS, in.core),
-                           Binding::of(LIGHT_TREE_NODES, nodes_)});
+    treeSets_.write(slot,
+                    {Binding::ofTexels(LIGHT_CORE_TEXELS, in.core),
+                     Binding::of(LIGHT_CORE, in.core), Binding::of(LIGHT_TREE_NODES, nodes_)});
     const Binding depth = Binding::sampled(TILE_CLUSTERS_DEPTH, in.gbuffer.depth);
-    const Binding frame = in.uniforms.at(slot, TILE_CLUSTERS_FRAME);
+    const Binding frame = in.uniforms.at(slot);
     tileSets_.write(slot,
                     {depth, frame, Binding::of(TILE_CLUSTERS_CLUSTERS, clusters_),
                      Binding::of(TILE_CLUSTERS_TILES, tiles_),
                      Binding::of(TILE_CLUSTERS_SURFACES, surfaces_),
                      Binding::of(TILE_CLUSTERS_SPLITS, splits_)},
-                    in.gbuffer.bindings(TILE_CLUSTERS_GBUFFER));
+                    in.gbuffer.bindings());
     splitSets_.write(slot,
                      {depth, frame, Binding::of(TILE_CLUSTERS_CLUSTERS, clusters_),
                       Binding::of(TILE_CLUSTERS_TILES, tiles_),
                       Binding::of(TILE_CLUSTERS_SPLITS, splits_)},
-                     in.gbuffer.normalBindings(TILE_CLUSTERS_GBUFFER));
+                     in.gbuffer.normalBindings());
     blockSets_.write(slot, {Binding::of(BLOCK_CLUSTERS_CLUSTERS, clusters_),
-                            Binding::of(BLOCK_CLUSTERS_TILES, tiles_),
-                            in.uniforms.at(slot, BLOCK_CLUSTERS_FRAME)});
+                            Binding::of(BLOCK_CLUSTERS_TILES, tiles_), in.uniforms.at(slot)});
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         if (types[type])
-            listSets_.write(slot * CND_LIGHT_TYPE_COUNT + type,
-                            {Binding::ofTexels(CLUSTER_LISTS_CORE, in.core),
-                             Binding::of(CLUSTER_LISTS_CORE_WORDS, in.core),
-                             Binding::ofTexels(CLUSTER_LISTS_NODES, nodes_),
-                             Binding::of(CLUSTER_LISTS_NODE_WORDS, nodes_),
-                             Binding::of(CLUSTER_LISTS_CLUSTERS, clusters_),
-                             Binding::of(CLUSTER_LISTS_TILES, tiles_),
-                             Binding::of(CLUSTER_LISTS_SPLITS, splits_),
-                             Binding::of(CLUSTER_LISTS_LISTS, lists_[type].heads),
-                             Binding::of(CLUSTER_LISTS_ENTRIES, entries_),
-                             Binding::of(CLUSTER_LISTS_LIT, lists_[type].lit),
-                             Binding::of(CLUSTER_LISTS_UNLISTED, lists_[type].unlisted),
-                             Binding::of(CLUSTER_LISTS_COUNTERS, in.counters)});
+            listSets_.write(
+                slot * CND_LIGHT_TYPE_COUNT + type,
+                {Binding::ofTexels(LIGHT_CORE_TEXELS, in.core), Binding::of(LIGHT_CORE, in.core),
+                 Binding::ofTexels(TREE_NODE_TEXELS, nodes_), Binding::of(TREE_NODES, nodes_),
+                 Binding::of(CLUSTER_LISTS_CLUSTERS, clusters_),
+                 Binding::of(CLUSTER_LISTS_TILES, tiles_),
+                 Binding::of(CLUSTER_LISTS_SPLITS, splits_),
+                 Binding::of(CLUSTER_LISTS_LISTS, lists_[type].heads),
+                 Binding::of(CLUSTER_LISTS_ENTRIES, entries_),
+                 Binding::of(CLUSTER_LISTS_LIT, lists_[type].lit),
+                 Binding::of(CLUSTER_LISTS_UNLISTED, lists_[type].unlisted),
+                 Binding::of(CLUSTER_LISTS_COUNTERS, in.counters)});
 }
 
 // Returns how many groups of cluster_lists make so many lists.

@@ -20,7 +20,7 @@ struct ClusterKernels {
     // `gbuffer` and `findsDiffuse`: values of SPEC_GBUFFER and SPEC_FINDS_DIFFUSE.
     ClusterKernels(const gpu::Device& device, const surfaces::HostKernels& host, uint32_t gbuffer,
                    bool findsDiffuse);
-    bool lanesTogether; // value of SPEC_LANES_TOGETHER of all kernels
+    bool lanesTogether; // the kernels are those for GPUs, not those of kernels/cpu
     gpu::Kernel<gpu::LightTreeParams> lightTree;
     gpu::Kernel<gpu::TileClustersParams> tileClusters, splitTiles;
     gpu::Kernel<gpu::BlockClustersParams> blockClusters;

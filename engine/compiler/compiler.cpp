@@ -100,8 +100,8 @@ std::vector<Job> jobsOf(const CndCompileDesc& desc)
             jobs.push_back({"count_pairs", family});
     }
     if (reads)
-        for (const char* kernel :
-             {"tile_clusters", "split_tiles", "surface_overlay", "shade_environment"})
+        for (const char* kernel : {"tile_clusters", "split_tiles", "cpu/tile_clusters",
+                                   "cpu/split_tiles", "surface_overlay", "shade_environment"})
             jobs.push_back({kernel, ""});
     return jobs;
 }

@@ -180,7 +180,7 @@ Environment::Environment(const CndDeviceDesc& device, const CndEnvironmentDesc& 
       shade_(device_,
              surfaces::addingTo(desc_.radianceFormat,
                                 hostKernels_.used(spirv::shade_environment_comp),
-                                gpu::SHADE_ENVIRONMENT_RADIANCE),
+                                gpu::RADIANCE_IMAGE),
              {{gpu::SPEC_GBUFFER, gbuffer_.code()}}, hostKernels_.setLayout()),
       sampler_(createSampler(device_)),
       recorded_(desc_.framesInFlight)
@@ -228,10 +228,10 @@ void Environment::recordMap(VkCommandBuffer cmd, const CndEnvironmentMap& map)
     if (!map.equirectangular)
         gpu::failArgument("CndEnvironmentMap: equirectangular is null");
     sets_.cube.write(0,
-                     {Binding::sampled(gpu::ENVIRONMENT_CUBE_IMAGE, map.equirectangular),
+                     {Binding::sampled(gpu::ENVIRONMENT_IMAGE, map.equirectangular),
                       Binding::storage(gpu::ENVIRONMENT_CUBE_OUTPUT, source_.mips[0].get()),
                       Binding::storage(gpu::ENVIRONMENT_CUBE_MIRROR, prefiltered_.mips[0].get())});
-    sets_.cells.write(0, {Binding::sampled(gpu::ENVIRONMENT_CELLS_IMAGE, map.equirectangular),
+    sets_.cells.write(0, {Binding::sampled(gpu::ENVIRONMENT_IMAGE, map.equirectangular),
                           Binding::of(gpu::ENVIRONMENT_CELLS_OUTPUT, cells_)});
 
     const gpu::Frame f{device_, cmd, timer_, mapSlot()};
@@ -345,13 +345,13 @@ void Environment::record(VkCommandBuffer cmd, const CndEnvironmentFrame& frame)
     const surfaces::GBufferViews images = gbuffer_.views(frame);
     sets_.shade.write(frame.frameSlot,
                       {Binding::sampled(SHADE_ENVIRONMENT_DEPTH, images.depth),
-                       uniforms_.at(frame.frameSlot, SHADE_ENVIRONMENT_FRAME),
-                       Binding::storage(SHADE_ENVIRONMENT_RADIANCE, frame.radiance),
+                       uniforms_.at(frame.frameSlot),
+                       Binding::storage(RADIANCE_IMAGE, frame.radiance),
                        cubeSampled(SHADE_ENVIRONMENT_CUBE, source_, sampler_.get()),
                        cubeSampled(SHADE_ENVIRONMENT_PREFILTERED, prefiltered_, sampler_.get()),
                        cubeSampled(SHADE_ENVIRONMENT_IRRADIANCE, irradiance_, sampler_.get()),
                        Binding::ofTexels(SHADE_ENVIRONMENT_DFG, dfg_.buffer())},
-                      images.bindings(SHADE_ENVIRONMENT_GBUFFER));
+                      images.bindings());
     recorded_[frame.frameSlot] = true;
 
     glm::dmat4 viewFromWorld;

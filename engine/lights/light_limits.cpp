@@ -26,7 +26,7 @@ bool texelBuffersSuffice(const VkPhysicalDeviceLimits& limits)
            limits.maxTexelBufferElements >= limits.maxStorageBufferRange / sizeof(uint32_t);
 }
 
-uint32_t lightsAsTexels(const gpu::Device& device)
+uint32_t forCpu(const gpu::Device& device)
 {
     return device.lanesAreCpuVector && texelBuffersSuffice(device.limits);
 }

@@ -14,9 +14,9 @@ uint32_t maxLights(const VkPhysicalDeviceLimits& limits);
 // largest buffer of list entries.
 bool texelBuffersSuffice(const VkPhysicalDeviceLimits& limits);
 
-// Returns the value of SPEC_LIGHTS_AS_TEXELS. It is 0 on GPUs: their kernels read lights and the
-// entries of lists from storage buffers. It is 1 on a device whose lanes are a CPU vector, where
-// texel reads are cheaper, if its texel buffers suffice: then kernels read both from texel buffers.
-uint32_t lightsAsTexels(const gpu::Device& device);
+// Returns the value of SPEC_FOR_CPU. It is 0 on GPUs. It is 1 on a device whose lanes are a CPU
+// vector, if its texel buffers suffice: then kernels read lights and the entries of lists from
+// texel buffers, which is cheaper there (shaders/shading/software_drivers.glsl).
+uint32_t forCpu(const gpu::Device& device);
 
 } // namespace candelabra::lighting

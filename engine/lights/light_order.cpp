@@ -34,10 +34,13 @@ LightOrder::LightOrder(const gpu::Device& device)
     : device_(&device),
       lanesTogether_(!device.lanesAreCpuVector),
       lightKeys_(device, spirv::light_keys_comp),
-      count_(device, spirv::sort_count_comp, {{gpu::SPEC_LANES_TOGETHER, lanesTogether_}}),
-      sums_(device, spirv::sort_sums_comp, {{gpu::SPEC_LANES_TOGETHER, lanesTogether_}}),
+      count_(device, lanesTogether_ ? spirv::sort_count_comp : spirv::cpu_sort_lights_comp,
+             {{gpu::SPEC_SORT_STEP, gpu::SORT_STEP_COUNT}}),
+      sums_(device, lanesTogether_ ? spirv::sort_sums_comp : spirv::cpu_sort_lights_comp,
+            {{gpu::SPEC_SORT_STEP, gpu::SORT_STEP_SUMS}}),
       offsets_(device, spirv::sort_offsets_comp),
-      scatter_(device, spirv::sort_scatter_comp, {{gpu::SPEC_LANES_TOGETHER, lanesTogether_}})
+      scatter_(device, lanesTogether_ ? spirv::sort_scatter_comp : spirv::cpu_sort_lights_comp,
+               {{gpu::SPEC_SORT_STEP, gpu::SORT_STEP_SCATTER}})
 {
 }
 
@@ -55,24 +58,15 @@ LightOrder::State LightOrder::createState(uint32_t capacity, const gpu::Buffer& 
         make("sort counts", VkDeviceSize(gpu::SORT_DIGITS) * runs * sizeof(uint32_t), Scratch);
     s.sums = make("sort sums", sumCount(runs) * sizeof(uint32_t), Scratch);
     s.makeKeys = lightKeys_.createBindings(2);
-    s.count = count_.createBindings(2);
-    s.scatter = scatter_.createBindings(2);
-    s.addUp = sums_.createBindings(1);
-    s.offset = offsets_.createBindings(1);
+    s.sort = offsets_.createBindings(2);
     using gpu::Binding;
     for (uint32_t i : {0u, 1u}) {
         s.makeKeys.write(i, {Binding::of(gpu::LIGHT_KEYS_RECORDS, records),
                              Binding::of(gpu::LIGHT_KEYS_KEYS, s.keys[i])});
-        s.count.write(i, {Binding::of(gpu::SORT_COUNT_KEYS, s.keys[i]),
-                          Binding::of(gpu::SORT_COUNT_COUNTS, s.counts)});
-        s.scatter.write(i, {Binding::of(gpu::SORT_SCATTER_FROM, s.keys[i]),
-                            Binding::of(gpu::SORT_SCATTER_TO, s.keys[1 - i]),
-                            Binding::of(gpu::SORT_SCATTER_COUNTS, s.counts),
-                            Binding::of(gpu::SORT_SCATTER_SUMS, s.sums)});
+        s.sort.write(
+            i, {Binding::of(gpu::SORT_FROM, s.keys[i]), Binding::of(gpu::SORT_TO, s.keys[1 - i]),
+                Binding::of(gpu::SORT_COUNTS, s.counts), Binding::of(gpu::SORT_SUMS, s.sums)});
     }
-    s.addUp.write(0, {Binding::of(gpu::SORT_SUMS_COUNTS, s.counts),
-                      Binding::of(gpu::SORT_SUMS_SUMS, s.sums)});
-    s.offset.write(0, {Binding::of(gpu::SORT_OFFSETS_SUMS, s.sums)});
     return s;
 }
 
@@ -105,21 +99,20 @@ void LightOrder::record(const gpu::Frame& frame, const State& s, const LightType
     gpu::SortParams params{.lightCount = lightCount,
                            .runCount = divideUp(lightCount, gpu::SORT_RUN)};
     // Dispatches groups for as many runs, or sums.
-    const auto dispatch = [&](const gpu::Kernel<gpu::SortParams>& kernel, VkDescriptorSet set,
-                              uint32_t count) {
-        kernel.dispatchInRows(f, set, params,
+    const auto dispatch = [&](const gpu::Kernel<gpu::SortParams>& kernel, uint32_t count) {
+        kernel.dispatchInRows(f, s.sort.set(from), params,
                               lanesTogether_ ? count : divideUp(count, gpu::SORT_GROUP));
     };
     for (uint32_t pass = 0; pass < passes; ++pass, from = 1 - from) {
         params.shift = pass * gpu::SORT_DIGIT_BITS;
         f.barrier();
-        dispatch(count_, s.count.set(from), params.runCount);
+        dispatch(count_, params.runCount);
         f.barrier();
-        dispatch(sums_, s.addUp.set(0), sumCount(params.runCount));
+        dispatch(sums_, sumCount(params.runCount));
         f.barrier();
-        offsets_.dispatch(f, s.offset.set(0), params, 1);
+        offsets_.dispatch(f, s.sort.set(from), params, 1);
         f.barrier();
-        dispatch(scatter_, s.scatter.set(from), params.runCount);
+        dispatch(scatter_, params.runCount);
     }
     f.barrier();
     frame.timer.stamp(frame.cmd, "light_order");

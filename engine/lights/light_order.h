@@ -28,9 +28,9 @@ public:
     // Buffers and descriptor sets for sorting up to a number of lights. keys[0] holds the result.
     struct State {
         gpu::Buffer keys[2], counts, sums;
-        // Set i of makeKeys writes keys[i]; set i of count and scatter reads keys[i].
-        gpu::Bindings makeKeys, count, scatter;
-        gpu::Bindings addUp, offset;
+        // Set i of makeKeys writes keys[i]. Set i of sort, for all kernels of a pass, reads
+        // keys[i].
+        gpu::Bindings makeKeys, sort;
     };
     // `capacity`: the largest number of lights to sort.
     State createState(uint32_t capacity, const gpu::Buffer& records) const;

@@ -111,13 +111,13 @@ void Influence::writeBindings(uint32_t slot, const Inputs& in) const
     using namespace gpu;
     const surfaces::GBufferViews& g = in.gbuffer;
     measure_.write(slot,
-                   {Binding::ofTexels(SHADE_CORE, in.core), Binding::of(SHADE_CORE_WORDS, in.core),
+                   {Binding::ofTexels(LIGHT_CORE_TEXELS, in.core), Binding::of(LIGHT_CORE, in.core),
                     Binding::of(SHADE_SHAPES, in.shapes), Binding::of(SHADE_LIGHT_IDS, in.ids),
-                    Binding::sampled(SHADE_DEPTH, g.depth), in.uniforms.at(slot, SHADE_FRAME),
+                    Binding::sampled(SHADE_DEPTH, g.depth), in.uniforms.at(slot),
                     Binding::ofTexels(SHADE_DFG, in.directionalAlbedo),
                     Binding::of(MEASURE_INFLUENCE_DATA, data_),
                     Binding::of(MEASURE_INFLUENCE_SUMS, sums_)},
-                   g.bindings(SHADE_GBUFFER));
+                   g.bindings());
     choose_.write(slot, {Binding::of(CHOOSE_INFLUENCE_DATA, data_),
                          Binding::of(CHOOSE_INFLUENCE_SUMS, sums_),
                          Binding::sampled(CHOOSE_INFLUENCE_DEPTH, g.depth),

@@ -222,15 +222,14 @@ gpu::Kernel<Params> ShadeKernels::makeKernel(const gpu::Spirv& builtIn, const Jo
                                              uint32_t height) const
 {
     const gpu::FormattedSpirv code =
-        surfaces::addingTo(radianceFormat_, host_->of(builtIn), gpu::SHADE_RADIANCE);
+        surfaces::addingTo(radianceFormat_, host_->of(builtIn), gpu::RADIANCE_IMAGE);
     return gpu::Kernel<Params>(*device_, code,
-                               {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(*device_)},
+                               {{gpu::SPEC_FOR_CPU, forCpu(*device_)},
                                 {gpu::SPEC_SPECULAR_METHOD, uint32_t(job.method)},
                                 {gpu::SPEC_LIGHT_TYPE, job.lightType},
                                 {gpu::SPEC_GBUFFER, gbuffer_},
                                 {gpu::SPEC_TILE_CLASS, job.tileClass},
-                                {gpu::SPEC_TILE_HEIGHT, height},
-                                {gpu::SPEC_LANES_TOGETHER, !device_->lanesAreCpuVector}},
+                                {gpu::SPEC_TILE_HEIGHT, height}},
                                host_->setLayout());
 }
 

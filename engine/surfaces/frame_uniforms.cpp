@@ -15,9 +15,9 @@ void FrameUniforms::write(uint32_t slot, const gpu::FrameParams& params) const n
     std::memcpy(buffer_.mapped + slot * stride, &params, sizeof params);
 }
 
-gpu::Binding FrameUniforms::at(uint32_t slot, uint32_t binding) const
+gpu::Binding FrameUniforms::at(uint32_t slot) const
 {
-    return {.binding = binding,
+    return {.binding = gpu::FRAME_PARAMS,
             .buffer = buffer_.get(),
             .offset = slot * stride,
             .range = sizeof(gpu::FrameParams)};

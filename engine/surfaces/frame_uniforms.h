@@ -49,8 +49,8 @@ public:
     FrameUniforms(const gpu::Device& device, uint32_t slots);
     // The GPU must have finished the slot's previous frame.
     void write(uint32_t slot, const gpu::FrameParams& params) const noexcept;
-    // Returns the parameters of the slot as a binding of number `binding`.
-    gpu::Binding at(uint32_t slot, uint32_t binding) const;
+    // Returns the parameters of the slot as the binding FRAME_PARAMS.
+    gpu::Binding at(uint32_t slot) const;
 
 private:
     // The offset of each slot is a multiple of this, the largest minUniformBufferOffsetAlignment

@@ -40,21 +40,21 @@ bool readsSpecular(CndGBufferLayout layout, const CndGBufferDesc& d)
 
 } // namespace
 
-std::array<gpu::Binding, 6> GBufferViews::bindings(uint32_t first) const
+std::array<gpu::Binding, 6> GBufferViews::bindings() const
 {
     using gpu::Binding;
-    return {Binding::sampled(first + gpu::GBUFFER_PACKED_NORMAL, packed[0]),
-            Binding::sampled(first + gpu::GBUFFER_PACKED_ALBEDO, packed[1]),
-            Binding::sampled(first + gpu::GBUFFER_PACKED_SPECULAR, packed[2]),
-            Binding::sampled(first + gpu::GBUFFER_NORMAL, floats[0]),
-            Binding::sampled(first + gpu::GBUFFER_ALBEDO, floats[1]),
-            Binding::sampled(first + gpu::GBUFFER_SPECULAR, floats[2])};
+    return {Binding::sampled(gpu::GBUFFER_PACKED_NORMAL, packed[0]),
+            Binding::sampled(gpu::GBUFFER_PACKED_ALBEDO, packed[1]),
+            Binding::sampled(gpu::GBUFFER_PACKED_SPECULAR, packed[2]),
+            Binding::sampled(gpu::GBUFFER_NORMAL, floats[0]),
+            Binding::sampled(gpu::GBUFFER_ALBEDO, floats[1]),
+            Binding::sampled(gpu::GBUFFER_SPECULAR, floats[2])};
 }
 
-std::array<gpu::Binding, 2> GBufferViews::normalBindings(uint32_t first) const
+std::array<gpu::Binding, 2> GBufferViews::normalBindings() const
 {
-    return {gpu::Binding::sampled(first + gpu::GBUFFER_PACKED_NORMAL, packed[0]),
-            gpu::Binding::sampled(first + gpu::GBUFFER_NORMAL, floats[0])};
+    return {gpu::Binding::sampled(gpu::GBUFFER_PACKED_NORMAL, packed[0]),
+            gpu::Binding::sampled(gpu::GBUFFER_NORMAL, floats[0])};
 }
 
 GBufferSource::GBufferSource(const gpu::Device& device, CndGBufferLayout layout,

@@ -30,9 +30,9 @@ struct GBufferViews {
     gpu::SampledImage depth;
 
     // Returns the bindings of a kernel, apart from depth, whose first one is `first`.
-    std::array<gpu::Binding, 6> bindings(uint32_t first) const;
+    std::array<gpu::Binding, 6> bindings() const;
     // Returns those of a kernel that reads only normals.
-    std::array<gpu::Binding, 2> normalBindings(uint32_t first) const;
+    std::array<gpu::Binding, 2> normalBindings() const;
 };
 
 // The layout of the G-buffer, which is the same for all views of a module.

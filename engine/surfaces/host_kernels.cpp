@@ -39,6 +39,8 @@ const BuiltIn builtIn[] = {
 #undef X
                     {"tile_clusters", &spirv::tile_clusters_comp},
     {"split_tiles", &spirv::split_tiles_comp},
+    {"cpu/tile_clusters", &spirv::cpu_tile_clusters_comp},
+    {"cpu/split_tiles", &spirv::cpu_split_tiles_comp},
     {"surface_overlay", &spirv::surface_overlay_comp},
     {"shade_environment", &spirv::shade_environment_comp}};
 

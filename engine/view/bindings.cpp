@@ -19,7 +19,7 @@ void View::writeBindings(const FramePlan& plan) const
         sets_.projectDepth.write(slot,
                                  {Binding::sampled(gpu::PROJECT_DEPTH_STORED, images.depth),
                                   Binding::storage(gpu::PROJECT_DEPTH_OUTPUT, depth_.view.get()),
-                                  uniforms_.at(slot, gpu::PROJECT_DEPTH_FRAME)});
+                                  uniforms_.at(slot)});
         images.depth = {depth_.view.get(), VK_IMAGE_LAYOUT_GENERAL};
     }
     sets_.prepareLights.write(slot, {Binding::of(gpu::PREPARE_LIGHTS_RECORDS, lights.records()),
@@ -62,12 +62,12 @@ void View::writeBruteBindings(const CndLightingFrame& frame,
     const gpu::Buffer& albedoTable = module_.albedoTable.buffer();
     sets_.shadeBrute.write(
         frame.frameSlot,
-        {Binding::ofTexels(SHADE_CORE, core_), Binding::of(SHADE_CORE_WORDS, core_),
+        {Binding::ofTexels(LIGHT_CORE_TEXELS, core_), Binding::of(LIGHT_CORE, core_),
          Binding::of(SHADE_SHAPES, shapes_), Binding::of(SHADE_LIGHT_IDS, ids_),
-         Binding::sampled(SHADE_DEPTH, images.depth), uniforms_.at(frame.frameSlot, SHADE_FRAME),
-         Binding::storage(SHADE_RADIANCE, frame.radiance),
+         Binding::sampled(SHADE_DEPTH, images.depth), uniforms_.at(frame.frameSlot),
+         Binding::storage(RADIANCE_IMAGE, frame.radiance),
          Binding::ofTexels(SHADE_DFG, albedoTable)},
-        images.bindings(SHADE_GBUFFER));
+        images.bindings());
 }
 
 void View::writeShadeBindings(const CndLightingFrame& frame, const surfaces::GBufferViews& images,
@@ -77,14 +77,14 @@ void View::writeShadeBindings(const CndLightingFrame& frame, const surfaces::GBu
     const uint32_t set = frame.frameSlot * CND_LIGHT_TYPE_COUNT + type;
     const gpu::Buffer& albedoTable = module_.albedoTable.buffer();
     const Clusters::Lists& lists = clusters_.lists(type);
-    const Binding core = Binding::ofTexels(SHADE_CORE, core_);
-    const Binding coreWords = Binding::of(SHADE_CORE_WORDS, core_);
+    const Binding core = Binding::ofTexels(LIGHT_CORE_TEXELS, core_);
+    const Binding coreWords = Binding::of(LIGHT_CORE, core_);
     const Binding shapes = Binding::of(SHADE_SHAPES, shapes_);
     const Binding ids = Binding::of(SHADE_LIGHT_IDS, ids_);
-    const std::array gbuffer = images.bindings(SHADE_GBUFFER);
+    const std::array gbuffer = images.bindings();
     const Binding depth = Binding::sampled(SHADE_DEPTH, images.depth);
-    const Binding uniforms = uniforms_.at(frame.frameSlot, SHADE_FRAME);
-    const Binding radiance = Binding::storage(SHADE_RADIANCE, frame.radiance);
+    const Binding uniforms = uniforms_.at(frame.frameSlot);
+    const Binding radiance = Binding::storage(RADIANCE_IMAGE, frame.radiance);
     const Binding dfg = Binding::ofTexels(SHADE_DFG, albedoTable);
     const Binding tiles = Binding::of(SHADE_TILES, clusters_.tiles());
     const Binding heads = Binding::of(SHADE_LISTS, lists.heads);
@@ -99,8 +99,9 @@ void View::writeShadeBindings(const CndLightingFrame& frame, const surfaces::GBu
                            gbuffer);
     sets_.shadeUnlisted.write(set,
                               {core, coreWords, shapes, ids, depth, uniforms, radiance, dfg, tiles,
-                               heads, unlisted, Binding::ofTexels(SHADE_NODES, clusters_.nodes()),
-                               Binding::of(SHADE_NODE_WORDS, clusters_.nodes())},
+                               heads, unlisted,
+                               Binding::ofTexels(TREE_NODE_TEXELS, clusters_.nodes()),
+                               Binding::of(TREE_NODES, clusters_.nodes())},
                               gbuffer);
     // Every binding needs an image, even if the frame has no pairImage and count_pairs writes none.
     const VkImageView pairs = frame.pairImage ? frame.pairImage : frame.radiance;

@@ -39,9 +39,9 @@ void View::recordOverlay(VkCommandBuffer cmd, const CndLightingFrame& frame,
     const surfaces::GBufferViews images = module_.gbuffer.views(frame);
     sets_.surfaceOverlay.write(frame.frameSlot,
                                {Binding::sampled(SHADE_DEPTH, images.depth),
-                                overlayUniforms_.at(frame.frameSlot, SHADE_FRAME),
+                                overlayUniforms_.at(frame.frameSlot),
                                 Binding::storage(SURFACE_OVERLAY_IMAGE, overlay.image)},
-                               images.bindings(SHADE_GBUFFER));
+                               images.bindings());
 
     glm::dmat4 viewFromWorld;
     std::memcpy(&viewFromWorld, frame.camera.viewFromWorld, sizeof viewFromWorld);

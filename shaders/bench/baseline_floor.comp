@@ -15,7 +15,7 @@ uint lightAt(uint k)
 #include "shading/light_walk.glsl"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
-layout(binding = SHADE_RADIANCE, rgba32f) uniform image2D radianceImage;
+layout(binding = RADIANCE_IMAGE, rgba32f) uniform image2D radianceImage;
 layout(scalar, binding = BASELINE_FOUND) readonly buffer FoundPerPixel
 {
     uint foundPerPixel[];
@@ -45,9 +45,9 @@ void main()
     const Receiver r =
         makeReceiver(readShadingPoint(pixel, depth), frameParams.sampleCount, pixelSeed(pixel));
     Sums sums = noLight();
-    EVALUATE(sums.near, near, evaluateNear)
-    EVALUATE(sums.above, above, evaluateAbove)
-    EVALUATE(sums.general, general, evaluateGeneral)
+    EVALUATE(sums.near, near, evaluate_NEAR)
+    EVALUATE(sums.above, above, evaluate_ABOVE)
+    EVALUATE(sums.general, general, evaluate_GENERAL)
     const vec4 before = imageLoad(radianceImage, ivec2(pixel));
     imageStore(radianceImage, ivec2(pixel), before + vec4(total(sums), 0.0));
 }

@@ -4,8 +4,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/baselines.h"
-#define SPHERES BASELINE_FROXELS_SPHERES
-#define SPHERE_WORDS BASELINE_FROXELS_SPHERE_WORDS
 #include "bench/spheres.glsl"
 
 layout(local_size_x = BASELINE_GROUP) in;
@@ -53,7 +51,7 @@ int sliceOf(float distance_)
 
 vec3 cornerOfBox(uint at)
 {
-    return lightsAsTexels != 0u ? texelFetch(boxTexels, int(at)).xyz : boxWords[at].xyz;
+    return READ(boxWords, boxTexels, at).xyz;
 }
 
 void main()

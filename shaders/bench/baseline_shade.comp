@@ -8,7 +8,7 @@
 #include "shading/light_walk.glsl"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
-layout(binding = SHADE_RADIANCE, rgba32f) uniform image2D radianceImage;
+layout(binding = RADIANCE_IMAGE, rgba32f) uniform image2D radianceImage;
 
 void main()
 {
@@ -24,7 +24,7 @@ void main()
         return;
     const Receiver r = makeReceiver(p, frameParams.sampleCount, pixelSeed(pixel));
     Sums sums = noLight();
-    do { // a lane that is done may run once more (Mesa 22.3); its block is then empty
+    do {
         shadeBlock(sums, r, block.first, block.count, true);
         block = nextBlock(block);
     } while (block.count != 0u);

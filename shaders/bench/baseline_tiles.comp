@@ -8,8 +8,6 @@
 #include "shared/baselines.h"
 #include "shared/cluster_data.h"
 #include "lib/projection.glsl"
-#define SPHERES BASELINE_TILES_SPHERES
-#define SPHERE_WORDS BASELINE_TILES_SPHERE_WORDS
 #include "bench/spheres.glsl"
 
 layout(local_size_x = BASELINE_GROUP) in;
@@ -41,6 +39,33 @@ vec2 side(float m, float m2, float ndc, float m23, float inwards)
     return inwards * normalize(vec2(m, m2 - ndc * m23));
 }
 
+// The sides of a tile's frustum, and its range of z.
+struct TileFrustum {
+    vec2 left, right, top, bottom;
+    float zMin, zMax;
+};
+
+// Returns the frustum of the pixels first .. end - 1 between two depths.
+TileFrustum frustumOf(uvec2 first, uvec2 end, float lowest, float highest)
+{
+    const Projection m = params.projection;
+    const float a = viewPosition(m, first, params.invImageSize, lowest).z;
+    const float b = viewPosition(m, first, params.invImageSize, highest).z;
+    const vec2 low = 2.0 * vec2(first) * params.invImageSize - 1.0;
+    const vec2 high = 2.0 * vec2(end) * params.invImageSize - 1.0;
+    // A point is inside where clip.x >= low w, clip.x <= high w, and so on, for w > 0.
+    return TileFrustum(side(m.m00, m.m20, low.x, m.m23, 1.0), side(m.m00, m.m20, high.x, m.m23, -1.0),
+                       side(m.m11, m.m21, low.y, m.m23, 1.0), side(m.m11, m.m21, high.y, m.m23, -1.0),
+                       min(a, b), max(a, b));
+}
+
+bool touches(TileFrustum f, vec4 s)
+{
+    const float inside = min(min(dot(f.left, s.xz), dot(f.right, s.xz)),
+                             min(dot(f.top, s.yz), dot(f.bottom, s.yz)));
+    return min(inside, min(s.z - f.zMin, f.zMax - s.z)) > -s.w;
+}
+
 void main()
 {
     const uint tile = gl_GlobalInvocationID.x;
@@ -57,20 +82,9 @@ void main()
             lowest = surface ? min(lowest, depth) : lowest;
             highest = surface ? max(highest, depth) : highest;
         }
-    const Projection m = params.projection;
     const bool empty = highest < lowest;
-    const float a = viewPosition(m, first, params.invImageSize, lowest).z;
-    const float b = viewPosition(m, first, params.invImageSize, highest).z;
-    const float zMin = min(a, b), zMax = max(a, b);
-    ranges[tile] = empty ? vec2(0.0) : vec2(-zMax, -zMin);
-
-    const vec2 low = 2.0 * vec2(first) * params.invImageSize - 1.0;
-    const vec2 high = 2.0 * vec2(end) * params.invImageSize - 1.0;
-    // A point is inside where clip.x >= low w, clip.x <= high w, and so on, for w > 0.
-    const vec2 left = side(m.m00, m.m20, low.x, m.m23, 1.0);
-    const vec2 right = side(m.m00, m.m20, high.x, m.m23, -1.0);
-    const vec2 top = side(m.m11, m.m21, low.y, m.m23, 1.0);
-    const vec2 bottom = side(m.m11, m.m21, high.y, m.m23, -1.0);
+    const TileFrustum frustum = frustumOf(first, end, lowest, highest);
+    ranges[tile] = empty ? vec2(0.0) : vec2(-frustum.zMax, -frustum.zMin);
 
     const uint before = heads[tile]; // 0, or the list made by earlier batches
     uint head = before, page = 0u, inPage = PAGE_LIGHTS, total = 0u;
@@ -78,13 +92,8 @@ void main()
     for (uint begin = params.firstLight; begin < endLight; begin += 32u) {
         const uint count = min(32u, endLight - begin);
         uint passed = 0u;
-        for (uint k = 0u; k < count; ++k) {
-            const vec4 s = sphereOf(begin + k);
-            const float inside =
-                min(min(dot(left, s.xz), dot(right, s.xz)), min(dot(top, s.yz), dot(bottom, s.yz)));
-            const float within = min(inside, min(s.z - zMin, zMax - s.z));
-            passed |= within > -s.w ? 1u << k : 0u;
-        }
+        for (uint k = 0u; k < count; ++k)
+            passed |= touches(frustum, sphereOf(begin + k)) ? 1u << k : 0u;
         total += uint(bitCount(passed));
         while (passed != 0u) {
             if (inPage == PAGE_LIGHTS) { // a chain of pages never ends with an empty page

@@ -7,8 +7,6 @@
 #include "shared/bench.h"
 #include "lib/gbuffer.glsl"
 #include "lib/brdf.glsl"
-#define LIGHT_STREAM_CORE BENCH_CORE
-#define LIGHT_STREAM_CORE_WORDS BENCH_CORE_WORDS
 #include "kernels/common/light_stream.glsl"
 
 layout(push_constant, scalar) uniform Push
@@ -24,8 +22,6 @@ uint lightAt(uint k)
 {
     return k;
 }
-
-#include "shading/light_walk.glsl"
 
 #include "bench/evaluate_classified.glsl"
 

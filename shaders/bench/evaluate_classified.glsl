@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Evaluates one light as shade_brute.comp does, with separate lobes. Include it after
-// shading/light_walk.glsl and shared/bench.h.
+// Evaluates one light as shade_brute.comp does, with separate lobes.
+#include "shading/light_walk.glsl"
+#include "shared/bench.h"
 
 vec3 evaluateClassified(Receiver r, uint light)
 {

@@ -43,7 +43,6 @@ uint lightAt(uint k)
     return k;
 }
 
-#include "shading/light_walk.glsl"
 #include "bench/evaluate_classified.glsl"
 #include "bench/sweep_cases.glsl"
 

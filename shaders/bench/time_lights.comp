@@ -19,15 +19,12 @@ layout(scalar, binding = BENCH_OUTPUT) writeonly buffer Output
 // `evaluation` is a specialisation constant, so only one of the calls remains.
 vec3 evaluate(BENCH_RECEIVER r, uint light)
 {
-#ifdef LIGHT_FAMILY_CONIC
-    if (evaluation == EVALUATE_NEAR)
-        return evaluateNear(r, light);
-#endif
-#ifdef HAS_ABOVE
-    if (evaluation == EVALUATE_ABOVE)
-        return evaluateAbove(r, light);
-#endif
-    return evaluateGeneral(r, light);
+#define X(WAY, found, SUM, response)                                                               \
+    if (evaluation == EVALUATE_##WAY)                                                              \
+        return evaluate_##WAY(r, light);
+    EVALUATIONS(X)
+#undef X
+    return vec3(0.0);
 }
 
 void main()

@@ -20,7 +20,6 @@ layout(scalar, binding = ADAPT_STATE) buffer State
     ExposureState state;
 };
 
-#define GROUP_LANES HISTOGRAM_BINS
 #include "kernels/common/group_sums.glsl"
 shared vec2 sums[HISTOGRAM_BINS];
 

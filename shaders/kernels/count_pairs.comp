@@ -59,11 +59,11 @@ void main()
 {
     uint tile;
     uvec2 pixel;
-    const bool inside = takeTile(ANY_HEIGHT, tile, pixel);
+    const bool inside = takeTile(tile, pixel);
     const float depth = inside ? texelFetch(depthImage, ivec2(pixel), 0).x : frameParams.clearDepth;
     const bool surface = inside && depth != frameParams.clearDepth;
     uint listed = 0u, evaluated = 0u, influenced = 0u, contributing = 0u;
-    Block block = surface ? beginWalk(tile, depth) : Block(0u, 0u, 0u);
+    Block block = surface ? beginWalk(params.batch, tile, depth) : Block(0u, 0u, 0u);
     Receiver r;
     if (surface)
         r = makeReceiver(readShadingPoint(pixel, depth), 1u, 0u);
@@ -79,7 +79,7 @@ void main()
             const vec3 toLight = towardsLight(lightCentre(light).xyz, r.p.position);
             influenced += length2(toLight) < lightEmission(light).w ? 1u : 0u;
         }
-        block = nextBlock(block);
+        block = nextBlock(params.batch, block);
     }
     if (surface && params.writesImage != 0u) {
         const vec4 before = imageLoad(pairImage, ivec2(pixel));

@@ -4,7 +4,6 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared/environment_data.h"
 #include "lib/equirectangular.glsl"
-#define ENVIRONMENT_IMAGE ENVIRONMENT_CELLS_IMAGE
 #include "kernels/common/environment_image.glsl"
 
 layout(local_size_x = ENVIRONMENT_GROUP, local_size_y = ENVIRONMENT_GROUP) in;

@@ -5,7 +5,6 @@
 #include "shared/environment_data.h"
 #include "lib/cube.glsl"
 #include "lib/equirectangular.glsl"
-#define ENVIRONMENT_IMAGE ENVIRONMENT_CUBE_IMAGE
 #include "kernels/common/environment_image.glsl"
 
 layout(local_size_x = ENVIRONMENT_GROUP, local_size_y = ENVIRONMENT_GROUP) in;

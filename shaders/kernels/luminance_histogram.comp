@@ -83,7 +83,7 @@ Entry entryOf(uvec2 pixel)
 }
 
 // Counts the pixels of a column from `pixel` on. Successive pixels of the same bin are added up before
-// they go to shared memory: on llvmpipe atomics take most of this kernel's time.
+// they go to shared memory, because atomics take most of this kernel's time.
 void countColumn(uvec2 pixel, uint end)
 {
     Entry run = Entry(0u, 0u);

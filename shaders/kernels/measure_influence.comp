@@ -23,10 +23,8 @@ uint lightAt(uint k)
     return params.batch.first + min(k * LANES + lane, params.batch.count - 1u);
 }
 
-// The lanes of a pixel have one receiver.
-#define KEPT_RECEIVERS SAMPLES_OF_GROUP
-#define KEPT_RECEIVER (gl_LocalInvocationIndex / LANES)
 #define KEPT_LANES MEASURE_INFLUENCE_GROUP
+#define LANES_OF_RECEIVER LANES // the lanes of a pixel have one receiver
 #include "shading/light_walk.glsl"
 
 layout(local_size_x = MEASURE_INFLUENCE_GROUP) in;
@@ -62,7 +60,8 @@ void addToLane(uint slot, vec3 luminance)
     laneSums[at + 2u * MEASURE_INFLUENCE_GROUP] += luminance.z;
 }
 
-// A loop like SHADE_FOUND. A lane whose condition is false may run once more; it then adds 0.
+// A loop like SHADE_FOUND. A lane whose condition is false may run once more (IF_ANY_LEFT); it then
+// adds 0.
 #define MEASURE_FOUND(r, first, found, evaluate)                                                   \
     if (!none(found)) {                                                                            \
         uvec2 left = found;                                                                        \
@@ -84,13 +83,9 @@ void measure(Receiver r)
     const uint count = (params.batch.count + LANES - 1u - lane) / LANES;
     for (uint first = 0u; first < count; first += WALK_BLOCK) {
         const Found found = findLights(readAgain(r), first, min(WALK_BLOCK, count - first), false);
-#ifdef LIGHT_FAMILY_CONIC
-        MEASURE_FOUND(r, first, found.near, evaluateNear)
-#endif
-#ifdef HAS_ABOVE
-        MEASURE_FOUND(r, first, found.above, evaluateAbove)
-#endif
-        MEASURE_FOUND(r, first, found.general, evaluateGeneral)
+#define X(WAY, which, SUM, response) MEASURE_FOUND(r, first, found.which, evaluate_##WAY)
+        EVALUATIONS(X)
+#undef X
     }
 }
 

@@ -5,8 +5,6 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #include "shared/lighting_data.h"
 #include "shared/project_depth.h"
-#define GBUFFER_CODE SPEC_GBUFFER
-#define FRAME_PARAMS PROJECT_DEPTH_FRAME
 #include "kernels/common/stored_depth.glsl"
 
 layout(local_size_x = PROJECT_DEPTH_GROUP, local_size_y = PROJECT_DEPTH_GROUP) in;

@@ -17,13 +17,11 @@ uint lightAt(uint k)
     return params.batch.first + k;
 }
 
-#define KEPT_RECEIVERS (TILE_SIZE * TILE_SIZE)
-#define KEPT_RECEIVER gl_LocalInvocationIndex
-#define KEPT_LANES KEPT_RECEIVERS
+#define KEPT_LANES (TILE_SIZE * TILE_SIZE)
+#define LANES_OF_RECEIVER 1u
 #include "shading/light_walk.glsl"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
-#define RADIANCE_IMAGE SHADE_RADIANCE
 #include "kernels/common/add_radiance.glsl"
 
 void main()

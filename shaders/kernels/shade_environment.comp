@@ -4,9 +4,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/environment_data.h"
-#define GBUFFER_CODE SPEC_GBUFFER
-#define GBUFFER_IMAGES SHADE_ENVIRONMENT_GBUFFER
-#define FRAME_PARAMS SHADE_ENVIRONMENT_FRAME
 #include "kernels/common/read_gbuffer.glsl"
 #include "kernels/common/stored_depth.glsl"
 #include "lib/dfg.glsl"
@@ -19,7 +16,6 @@ layout(push_constant, scalar) uniform Push
     ShadeEnvironmentParams params;
 };
 layout(binding = SHADE_ENVIRONMENT_DEPTH) uniform texture2D depthImage;
-#define RADIANCE_IMAGE SHADE_ENVIRONMENT_RADIANCE
 #include "kernels/common/add_radiance.glsl"
 layout(binding = SHADE_ENVIRONMENT_CUBE) uniform samplerCube environment;
 layout(binding = SHADE_ENVIRONMENT_PREFILTERED) uniform samplerCube prefiltered;

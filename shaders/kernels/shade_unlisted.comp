@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lights the pixels whose cluster has no list, by walking the light tree: with the same lights in the
-// same order, but more slowly. It is another pipeline than shade_tiles, so the last bits may differ,
-// except on llvmpipe (DECISIONS 42). Each pixel walks the nodes whose box holds it. On devices that
-// limit loops, clusters with too many lights are lit in batches, which are parts of the tree.
+// same order, but more slowly. It is another pipeline than shade_tiles, so the last bits may differ
+// (DECISIONS 42). Each pixel walks the nodes whose box holds it. On devices that limit loops, clusters
+// with too many lights are lit in batches, which are parts of the tree.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define COUNTS_DIFFER true // lightAt reads shared memory
 #include "kernels/common/shade_receiver.glsl"
 
 layout(push_constant, scalar) uniform Push
@@ -13,8 +14,6 @@ layout(push_constant, scalar) uniform Push
 };
 
 #include "kernels/common/tile_of_group.glsl"
-#define TREE_NODES SHADE_NODES
-#define TREE_NODE_WORDS SHADE_NODE_WORDS
 #include "kernels/common/light_tree.glsl"
 
 // The leaves that a pixel has found, in place of a page of a list. They are in shared memory because
@@ -28,21 +27,18 @@ uint lightAt(uint k)
     return params.tree.firstLight + leaf * TREE_WIDTH + k % TREE_WIDTH;
 }
 
-#define COUNTS_DIFFER
-#define KEPT_RECEIVERS (TILE_SIZE * TILE_SIZE)
-#define KEPT_RECEIVER gl_LocalInvocationIndex
-#define KEPT_LANES KEPT_RECEIVERS
+#define KEPT_LANES (TILE_SIZE * TILE_SIZE)
+#define LANES_OF_RECEIVER 1u
 #include "shading/light_walk.glsl"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
-#define RADIANCE_IMAGE SHADE_RADIANCE
 #include "kernels/common/add_radiance.glsl"
 
 void main()
 {
     uint tile;
     uvec2 pixel;
-    if (!takeTile(ANY_HEIGHT, tile, pixel))
+    if (!takeTile(tile, pixel))
         return;
     const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
     if (depth == frameParams.clearDepth)
@@ -63,7 +59,7 @@ void main()
     while (!walk.done) {
         uint found = 0u, count = 0u;
         while (!walk.done && found < FOUND_LEAVES) {
-            // The condition of the loop is asked for again because of SwiftShader (light_walk.glsl).
+            // For the reason of IF_COUNTS_DIFFER the condition of the loop is asked for again.
             const bool walks = !walk.done && found < FOUND_LEAVES;
             const bool inside = walks && boxHolds(treeNode(walk), readAgain(r).p.position);
             if (inside && walk.level == 1u) {

@@ -3,13 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernels/common/sort_run.glsl"
-#define GROUP_LANES SORT_GROUP
 #include "kernels/common/group_sums.glsl"
-
-layout(scalar, binding = SORT_OFFSETS_SUMS) buffer Sums
-{
-    uint sums[];
-};
 
 void main()
 {

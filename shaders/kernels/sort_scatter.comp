@@ -1,47 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Moves each light to the position that the sums over counted digits give it. Lights with equal digits
-// keep their order.
+// keep their order. A group moves the lights of a run.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernels/common/sort_run.glsl"
-
-layout(scalar, binding = SORT_SCATTER_FROM) readonly buffer From
-{
-    LightKey from[];
-};
-layout(scalar, binding = SORT_SCATTER_TO) writeonly buffer To
-{
-    LightKey to[];
-};
-layout(scalar, binding = SORT_SCATTER_COUNTS) readonly buffer Counts
-{
-    uint counts[];
-};
-layout(scalar, binding = SORT_SCATTER_SUMS) readonly buffer Sums
-{
-    uint sums[];
-};
-
-// Returns the position of the first light of a run that has the digit.
-uint firstOf(uint d, uint run)
-{
-    const uint at = d * params.runCount + run;
-    return counts[at] + sums[at / SORT_SUM];
-}
-
-void scatterByLane(uint run)
-{
-    uint next[SORT_DIGITS];
-    for (uint d = 0u; d < SORT_DIGITS; ++d)
-        next[d] = firstOf(d, run);
-    const uint end = min(params.lightCount, (run + 1u) * SORT_RUN);
-    for (uint i = run * SORT_RUN; i < end; ++i) {
-        const LightKey light = from[i];
-        const uint d = digitOf(light.key);
-        to[next[d]] = light;
-        ++next[d];
-    }
-}
 
 // A bit for each light of the run, for each digit: whether the light has it.
 const uint WORDS = SORT_RUN / 32u;
@@ -56,8 +18,11 @@ uint countBefore(uint d, uint i)
     return count;
 }
 
-void scatterByGroup(uint run)
+void main()
 {
+    const uint run = indexOfGroup();
+    if (run >= params.runCount)
+        return;
     const uint lane = gl_LocalInvocationIndex;
     for (uint word = lane; word < SORT_DIGITS * WORDS; word += SORT_GROUP)
         having[word] = 0u;
@@ -71,15 +36,4 @@ void scatterByGroup(uint run)
         const uint d = digitOf(light.key);
         to[firstOf(d, run) + countBefore(d, i)] = light;
     }
-}
-
-void main()
-{
-    const uint run = indexOfWorker();
-    if (run >= params.runCount)
-        return;
-    if (lanesTogether)
-        scatterByGroup(run);
-    else
-        scatterByLane(run);
 }

@@ -3,9 +3,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/surface_overlay.h"
-#define GBUFFER_CODE SPEC_GBUFFER
-#define GBUFFER_IMAGES SHADE_GBUFFER
-#define FRAME_PARAMS SHADE_FRAME
 #include "kernels/common/read_gbuffer.glsl"
 #include "kernels/common/stored_depth.glsl"
 #include "lib/projection.glsl"

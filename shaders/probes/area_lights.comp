@@ -32,6 +32,7 @@ layout(scalar, binding = PROBE_OUTPUT) writeonly buffer Output
 
 // The sphere that shading evaluates, as light 0.
 vec4 sphere;
+LightShape lightShapes[1]; // spheres have none
 
 vec4 lightCentre(uint light)
 {
@@ -48,7 +49,6 @@ uint lightAt(uint k)
     return k;
 }
 
-#include "shading/light_walk.glsl"
 #include "bench/evaluate_classified.glsl"
 
 // Returns the light scaled to a distance of about 1, as shading does (shading/light.glsl).

@@ -22,6 +22,8 @@ layout(scalar, binding = PROBE_OUTPUT) writeonly buffer Output
     ConicProbeOutput outputs[];
 };
 
+LightShape lightShapes[1]; // spheres have none
+
 vec4 lightCentre(uint light)
 {
     return vec4(inputs[light].toLight, inputs[light].radius);
@@ -37,7 +39,6 @@ uint lightAt(uint k)
     return k;
 }
 
-#include "shading/light_walk.glsl"
 #include "bench/evaluate_classified.glsl"
 
 void main()

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Classes of lights that are evaluated by their outlines. light_walk.glsl sorts lights into them.
+// Classes of lights that are evaluated by their outlines. classify_lights.glsl sorts lights into them.
 #ifndef CND_SHADING_BY_OUTLINE
 #define CND_SHADING_BY_OUTLINE
 

@@ -40,8 +40,3 @@ vec3 discWithNeeds(Receiver r, Light given, OutlineNeeds needs)
 }
 
 OUTLINE_CLASSES(disc)
-
-#ifdef LIGHT_FAMILY_DISC
-#define ABOVE_RESPONSE discAbove
-#define GENERAL_RESPONSE discResponse
-#endif

@@ -173,8 +173,3 @@ vec3 polygonWithNeeds(Receiver r, Light given, OutlineNeeds needs)
 }
 
 OUTLINE_CLASSES(polygon)
-
-#ifdef LIGHT_FAMILY_POLYGON
-#define ABOVE_RESPONSE polygonAbove
-#define GENERAL_RESPONSE polygonResponse
-#endif

@@ -28,7 +28,3 @@ vec3 punctualResponse(Receiver r, Light light)
     return lightType == LIGHT_DIRECTIONAL ? responseFrom(r.p, light.toLight)
                                           : intensityResponse(r.p, light);
 }
-
-#ifndef LIGHT_FAMILY_ALL
-#define GENERAL_RESPONSE punctualResponse
-#endif

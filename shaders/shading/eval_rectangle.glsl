@@ -41,8 +41,3 @@ vec3 rectangleWithNeeds(Receiver r, Light given, OutlineNeeds needs)
 }
 
 OUTLINE_CLASSES(rectangle)
-
-#ifdef LIGHT_FAMILY_RECTANGLE
-#define ABOVE_RESPONSE rectangleAbove
-#define GENERAL_RESPONSE rectangleResponse
-#endif

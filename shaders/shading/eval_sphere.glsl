@@ -6,7 +6,6 @@
 #include "lib/specular/kx.glsl"
 #include "shading/light.glsl"
 
-#ifdef LIGHT_FAMILY_SPHERE
 // Returns the response of the specular lobe to a sphere of unit luminance, by any method except the
 // closed form.
 vec2 cheapSphereSpecular(Receiver r, Light light, SphereCap cap)
@@ -25,36 +24,17 @@ vec2 cheapSphereSpecular(Receiver r, Light light, SphereCap cap)
     }
     return vec2(0.0);
 }
-#endif
 
-// Returns the response to a sphere above the horizon. The functions after it evaluate spheres across
-// the horizon and near it.
+// Returns the response to a sphere above the horizon, by the closed form. The functions after it
+// evaluate spheres near the horizon and across it, and spheres by the other methods.
 vec3 sphereAbove(Receiver r, Light light)
 {
     const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.boundingRadius);
-#ifdef LIGHT_FAMILY_CONIC
     const vec2 specular = specularMethod == SPECULAR_CONIC ? conicAbove(r.conic, cap)
                                                            : conicUnclipped(r.conic, cap, false);
-#else
-    const vec2 specular = cheapSphereSpecular(r, light, cap);
-#endif
     return diffuseResponse(r.p, cap.NoC * cap.s2) + schlick(r.p, specular);
 }
 
-vec3 sphereAcross(Receiver r, Light light)
-{
-    const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.boundingRadius);
-#ifdef LIGHT_FAMILY_CONIC
-    const vec2 response = conicClipped(r.conic, cap);
-#else
-    const vec2 response = cheapSphereSpecular(r, light, cap);
-#endif
-    // The cap may be below the horizon because of rounding, or if the receiver is inside the sphere.
-    const vec2 specular = cap.NoC > -cap.s ? response : vec2(0.0);
-    return diffuseResponse(r.p, sphereFormFactor(cap.NoC, cap.s2)) + schlick(r.p, specular);
-}
-
-#ifdef LIGHT_FAMILY_CONIC
 vec3 sphereNear(Receiver r, Light light)
 {
     const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.boundingRadius);
@@ -62,9 +42,29 @@ vec3 sphereNear(Receiver r, Light light)
     return diffuseResponse(r.p, sphereFormFactor(cap.NoC, cap.s2)) +
            schlick(r.p, conicUnclipped(r.conic, cap, mixed));
 }
-#endif
 
-#define ABOVE_RESPONSE sphereAbove
-#ifndef LIGHT_FAMILY_ALL
-#define GENERAL_RESPONSE sphereAcross
-#endif
+// Returns the response to a sphere across the horizon. The cap may be below the horizon because of
+// rounding, or if the receiver is inside the sphere.
+vec3 responseAcross(Receiver r, SphereCap cap, vec2 response)
+{
+    const vec2 specular = cap.NoC > -cap.s ? response : vec2(0.0);
+    return diffuseResponse(r.p, sphereFormFactor(cap.NoC, cap.s2)) + schlick(r.p, specular);
+}
+
+vec3 sphereAcross(Receiver r, Light light)
+{
+    const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.boundingRadius);
+    return responseAcross(r, cap, conicClipped(r.conic, cap));
+}
+
+vec3 cheapSphereAbove(Receiver r, Light light)
+{
+    const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.boundingRadius);
+    return diffuseResponse(r.p, cap.NoC * cap.s2) + schlick(r.p, cheapSphereSpecular(r, light, cap));
+}
+
+vec3 cheapSphereAcross(Receiver r, Light light)
+{
+    const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.boundingRadius);
+    return responseAcross(r, cap, cheapSphereSpecular(r, light, cap));
+}

@@ -40,8 +40,3 @@ vec3 tubeWithNeeds(Receiver r, Light given, OutlineNeeds needs)
 }
 
 OUTLINE_CLASSES(tube)
-
-#ifdef LIGHT_FAMILY_TUBE
-#define ABOVE_RESPONSE tubeAbove
-#define GENERAL_RESPONSE tubeResponse
-#endif

@@ -61,7 +61,7 @@ uint lightAt(uint k)
 }
 
 #define LIGHT_FAMILY_ALL
-#define COUNTS_DIFFER
+#define COUNTS_DIFFER true
 #include "shading/light_walk.glsl"
 
 // Iterates over the lights of one type that reach a position. A shader may use one cursor at a time.
@@ -152,9 +152,9 @@ vec3 litSurface(Surface surface, vec3 position)
         return luminance;
     LightCursor cursor = lightsAt(type, position);
     Sums sums = noLight();
-    // The loops test their conditions at the end, for the reason given at SHADE_FOUND. With Mesa 22.3 a
-    // lane whose condition is false may run once more. This is harmless, because its cursor is after
-    // the last light, or foundLights has room for one more.
+    // The loops test their conditions at the end, as SHADE_FOUND does. A lane whose condition is false
+    // may run once more (software_drivers.glsl). Its cursor is then after the last light, or
+    // foundLights has room for one more.
     do {
         uint count = 0u;
         bool more;

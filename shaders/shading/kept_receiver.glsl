@@ -1,28 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a lane keeps in shared memory while it evaluates lights by their outlines on a GPU: its surface
-// and its sums of light. The evaluation needs most of the registers that a lane may have, and these
-// values are needed only before and after it. On llvmpipe, whose variables are in the processor's cache
-// anyway, they stay variables.
-// If its lanes may keep them, the includer defines KEPT_RECEIVERS, the number of receivers of a group,
-// KEPT_RECEIVER, the index of this lane's receiver, and KEPT_LANES, the number of lanes of a group.
+// What a lane keeps in shared memory while it evaluates lights by their outlines: its surface and its
+// sums of light. The evaluation needs most of the registers that a lane may have, and these values are
+// needed only before and after it. If its lanes may keep them, the includer defines KEPT_LANES, the
+// number of lanes of a group, and LANES_OF_RECEIVER, the number of consecutive lanes that have one
+// receiver.
 #ifndef CND_SHADING_KEPT_RECEIVER
 #define CND_SHADING_KEPT_RECEIVER
 
+#include "shading/light_type.glsl"
 #include "shading/receiver.glsl"
+#include "shading/software_drivers.glsl"
 
 // The sums of a lane, by the way in which lights are evaluated (light_walk.glsl).
 const uint SUM_ABOVE = 0u;
 const uint SUM_GENERAL = 1u;
 
-#ifdef KEPT_RECEIVERS
-// lanesTogether tells whether the kernel runs in the form for GPUs ("Lanes and groups", DESIGN.md).
-layout(constant_id = SPEC_LANES_TOGETHER) const bool lanesTogether = false;
-#endif
-
-#if defined(KEPT_RECEIVERS) && defined(HAS_OUTLINES)
+#ifdef KEPT_LANES
 #extension GL_KHR_shader_subgroup_basic : require
 
-const bool KEEPS_RECEIVERS = lanesTogether && BY_OUTLINE;
+const bool MAY_KEEP_RECEIVERS = HAS_OUTLINES && !forCpu;
+const bool KEEPS_RECEIVERS = MAY_KEEP_RECEIVERS && BY_OUTLINE;
+const uint KEPT_RECEIVERS = KEPT_LANES / LANES_OF_RECEIVER;
 
 // The places of values among the words of a receiver.
 const uint KEPT_POSITION = 0u;
@@ -36,12 +34,12 @@ const uint KEPT_SUMS = 19u; // three words each
 const uint KEPT_WORDS = 25u;
 
 // Words of neighbouring lanes are neighbours, so that lanes never use the same bank of memory.
-shared float keptWords[lanesTogether ? KEPT_WORDS * KEPT_RECEIVERS : 1u];
-shared uint keptLights[lanesTogether ? KEPT_LANES : 1u];
+shared float keptWords[MAY_KEEP_RECEIVERS ? KEPT_WORDS * KEPT_RECEIVERS : 1u];
+shared uint keptLights[MAY_KEEP_RECEIVERS ? KEPT_LANES : 1u];
 
 uint placeOf(uint word)
 {
-    return word * KEPT_RECEIVERS + KEPT_RECEIVER;
+    return word * KEPT_RECEIVERS + gl_LocalInvocationIndex / LANES_OF_RECEIVER;
 }
 
 void keepVector(uint word, vec3 a)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A light as a receiver sees it. The includer provides lightCentre() and lightEmission() and, with
-// CANDELABRA_VISIBILITY, lightIds[]. The host then provides the shadow term.
+// A light as a receiver sees it. The includer provides lightCentre() and lightEmission().
 #ifndef CND_SHADING_LIGHT
 #define CND_SHADING_LIGHT
 
@@ -8,9 +7,7 @@
 #include "lib/specular/sampled.glsl"
 #include "shading/light_type.glsl"
 #include "shading/receiver.glsl"
-#ifdef CANDELABRA_VISIBILITY
-#include "lib/shadow_query.glsl"
-#endif
+#include "shading/shadow_term.glsl"
 
 // Returns (1 - (d / r)^4)^2 for d < r, else 0; 1 if r is UNBOUNDED (Lagarde and de Rousiers 2014,
 // eq. 26).
@@ -45,10 +42,8 @@ vec3 emissionTowards(Receiver r, Light light, float d2)
     vec3 emission = emissionInfluence.xyz;
     if (!IS_DISTANT)
         emission *= influenceWindow(d2, emissionInfluence.w);
-#ifdef CANDELABRA_VISIBILITY
-    emission *= candelabraVisibility(
-        ShadowQuery(lightIds[light.index], lightType, r.p.position, r.p.n, light.toLight));
-#endif
+    if (HAS_SHADOW_TERM)
+        emission *= SHADOW_TERM(light.index, r.p.position, r.p.n, light.toLight);
     return emission;
 }
 

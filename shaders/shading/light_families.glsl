@@ -1,29 +1,67 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which code the family of lights needs that a shader is compiled for. The build defines
-// LIGHT_FAMILY_<name> with a name of shared/light_type_list.h. Shaders of hosts (lib/forward.glsl)
-// define LIGHT_FAMILY_ALL and evaluate every light, spheres by SPECULAR_CONIC.
+// The family of lights that a shader is compiled for (shared/light_type_list.h), and how its lights are
+// evaluated. The build defines LIGHT_FAMILY_<name>. Shaders of hosts (lib/forward.glsl) define
+// LIGHT_FAMILY_ALL and evaluate every light, spheres by SPECULAR_CONIC.
 #ifndef CND_SHADING_LIGHT_FAMILIES
 #define CND_SHADING_LIGHT_FAMILIES
 
-#ifdef LIGHT_FAMILY_ALL
-#define LIGHT_FAMILY_CONIC
+#include "shared/light_type_list.h"
+
+// EVALUATIONS(X) lists the ways in which the lights of the family are evaluated: X(WAY, found, SUM,
+// response). `found` is the member of Found that holds such lights, and of Sums (light_walk.glsl), and
+// `response` the function that returns the response to a light of unit emission (eval_*.glsl). All
+// lights have the way GENERAL. Spheres, and lights with outlines, have ABOVE for those wholly above the
+// horizon; the closed form of spheres has NEAR for those near it.
+#define CLOSED_SPHERE_EVALUATIONS(X)                                                               \
+    X(NEAR, near, SUM_GENERAL, sphereNear)                                                         \
+    X(ABOVE, above, SUM_ABOVE, sphereAbove)
+#define TWO_EVALUATIONS(X, aboveResponse, generalResponse)                                         \
+    X(ABOVE, above, SUM_ABOVE, aboveResponse)                                                      \
+    X(GENERAL, general, SUM_GENERAL, generalResponse)
+#if defined(LIGHT_FAMILY_ALL)
+#define LIGHT_FAMILY FAMILY_COUNT
+#define EVALUATIONS(X) CLOSED_SPHERE_EVALUATIONS(X)
+#elif defined(LIGHT_FAMILY_PUNCTUAL)
+#define LIGHT_FAMILY FAMILY_PUNCTUAL
+#define EVALUATIONS(X) X(GENERAL, general, SUM_GENERAL, punctualResponse)
+#elif defined(LIGHT_FAMILY_CONIC)
+#define LIGHT_FAMILY FAMILY_CONIC
+#define EVALUATIONS(X)                                                                             \
+    CLOSED_SPHERE_EVALUATIONS(X)                                                                   \
+    X(GENERAL, general, SUM_GENERAL, sphereAcross)
+#elif defined(LIGHT_FAMILY_SPHERE)
+#define LIGHT_FAMILY FAMILY_SPHERE
+#define EVALUATIONS(X) TWO_EVALUATIONS(X, cheapSphereAbove, cheapSphereAcross)
+#elif defined(LIGHT_FAMILY_TUBE)
+#define LIGHT_FAMILY FAMILY_TUBE
+#define EVALUATIONS(X) TWO_EVALUATIONS(X, tubeAbove, tubeResponse)
+#elif defined(LIGHT_FAMILY_RECTANGLE)
+#define LIGHT_FAMILY FAMILY_RECTANGLE
+#define EVALUATIONS(X) TWO_EVALUATIONS(X, rectangleAbove, rectangleResponse)
+#elif defined(LIGHT_FAMILY_DISC)
+#define LIGHT_FAMILY FAMILY_DISC
+#define EVALUATIONS(X) TWO_EVALUATIONS(X, discAbove, discResponse)
+#elif defined(LIGHT_FAMILY_POLYGON)
+#define LIGHT_FAMILY FAMILY_POLYGON
+#define EVALUATIONS(X) TWO_EVALUATIONS(X, polygonAbove, polygonResponse)
 #endif
 
-// The family has spheres, near or distant, with any specular method.
-#if defined(LIGHT_FAMILY_CONIC) || defined(LIGHT_FAMILY_SPHERE)
-#define HAS_SPHERES
-#endif
+// Whether the shader evaluates all families, each by the function of the way GENERAL in
+// GENERAL_RESPONSES.
+const bool HAS_ALL_FAMILIES = LIGHT_FAMILY == FAMILY_COUNT;
+#define GENERAL_RESPONSES(X)                                                                       \
+    X(PUNCTUAL, punctualResponse)                                                                  \
+    X(SPHERE, sphereAcross)                                                                        \
+    X(TUBE, tubeResponse)                                                                          \
+    X(RECTANGLE, rectangleResponse)                                                                \
+    X(DISC, discResponse)                                                                          \
+    X(POLYGON, polygonResponse)
 
-// The family has lights that are evaluated by their outlines.
-#if defined(LIGHT_FAMILY_ALL) || defined(LIGHT_FAMILY_TUBE) || defined(LIGHT_FAMILY_RECTANGLE) || \
-    defined(LIGHT_FAMILY_DISC) || defined(LIGHT_FAMILY_POLYGON)
-#define HAS_OUTLINES
-#endif
-
-// The evaluation of the family's lights that are wholly above the horizon, and easy otherwise, has a
-// loop of its own (light_walk.glsl).
-#if defined(HAS_SPHERES) || defined(HAS_OUTLINES)
-#define HAS_ABOVE
-#endif
+// Whether the family has spheres, near or distant, which are evaluated by the closed form or by any
+// other method, and whether it has lights that are evaluated by their outlines.
+const bool HAS_CLOSED_SPHERES = LIGHT_FAMILY == FAMILY_CONIC || HAS_ALL_FAMILIES;
+const bool HAS_SPHERES = LIGHT_FAMILY == FAMILY_SPHERE || HAS_CLOSED_SPHERES;
+const bool HAS_OUTLINES = LIGHT_FAMILY != FAMILY_PUNCTUAL && LIGHT_FAMILY != FAMILY_SPHERE &&
+                          LIGHT_FAMILY != FAMILY_CONIC;
 
 #endif

@@ -17,6 +17,11 @@ struct BaselineSpheresParams {
 };
 GPU_SIZE(BaselineSpheresParams, 4)
 
+// Bindings of the spheres in baseline_tiles and baseline_froxels, as a texel buffer and as a
+// storage buffer.
+const uint BASELINE_SPHERE_TEXELS = 10u;
+const uint BASELINE_SPHERES = 11u;
+
 // Both baselines have buffers `heads`, one index per tile or froxel, and `entries`, which these
 // indices point into and which holds the lists.
 struct BaselineCounters {
@@ -33,12 +38,10 @@ GPU_SIZE(BaselineCounters, 44)
 // in the chain.
 const uint BASELINE_TILE_SIZE = 16u; // pixels
 const uint BASELINE_TILES_DEPTH = 0u;
-const uint BASELINE_TILES_SPHERES = 1u;
 const uint BASELINE_TILES_HEADS = 2u;
 const uint BASELINE_TILES_ENTRIES = 3u;
 const uint BASELINE_TILES_COUNTERS = 4u;
 const uint BASELINE_TILES_RANGES = 5u; // vec2 per tile: nearest and farthest distance along -z
-const uint BASELINE_TILES_SPHERE_WORDS = 6u; // the spheres as a storage buffer
 struct BaselineTilesParams {
     Projection projection;
     uvec2 size;
@@ -56,14 +59,12 @@ GPU_SIZE(BaselineTilesParams, 96)
 // dispatch, to their lists.
 const uint FROXEL_SIZE = 64u; // pixels
 const uint FROXEL_SLICES = 32u;
-const uint BASELINE_FROXELS_SPHERES = 0u;
 const uint BASELINE_FROXELS_BOXES = 1u;   // two texels per froxel: (min, 0), (max, 0)
 const uint BASELINE_FROXELS_HEADS = 2u;   // one more than froxels; after counting, the counts
 const uint BASELINE_FROXELS_CURSORS = 3u; // where the next light of each froxel is entered
 const uint BASELINE_FROXELS_ENTRIES = 4u;
-const uint BASELINE_FROXELS_SPHERE_WORDS = 5u; // the spheres as a storage buffer
-const uint BASELINE_FROXELS_BOX_WORDS = 6u;    // the boxes as a storage buffer
-const uint SPEC_FROXELS_ENTER = 19u;           // 0: count, 1: enter
+const uint BASELINE_FROXELS_BOX_WORDS = 6u; // the boxes as a storage buffer
+const uint SPEC_FROXELS_ENTER = 19u;        // 0: count, 1: enter
 struct BaselineFroxelsParams {
     Projection projection;
     uvec2 froxelCount; // in x and y

@@ -11,9 +11,7 @@ GPU_BEGIN
 
 const uint BENCH_GROUP = 64u;
 
-const uint BENCH_CORE = 0u; // lights, as in lighting_data.h
-const uint BENCH_CORE_WORDS = 1u;
-const uint BENCH_SHAPES = 2u;
+const uint BENCH_SHAPES = 2u; // after the lights (shared/lighting_data.h)
 const uint BENCH_INPUT = 3u;
 const uint BENCH_OUTPUT = 4u;
 const uint BENCH_LTC = 40u; // kernels of bench/ltc: the table of shared/ltc.h

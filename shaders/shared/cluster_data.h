@@ -20,8 +20,6 @@ const uint TREE_NODE_STRIDE = 2u;
 // --- light_tree: builds two levels from the level below, one group per node of the upper level
 // with a lane per child of its children, or one lane per node of the upper level
 const uint LIGHT_TREE_GROUP = 64u;
-const uint LIGHT_TREE_CORE = 0u;
-const uint LIGHT_TREE_CORE_WORDS = 1u;
 const uint LIGHT_TREE_NODES = 2u;
 struct LightTreeParams {
     uint childFirst, childCount; // lights, or nodes of the level below
@@ -109,9 +107,6 @@ const uint TILE_CLUSTERS_CLUSTERS = 1u;
 const uint TILE_CLUSTERS_TILES = 2u;
 const uint TILE_CLUSTERS_SURFACES = 3u; // TILE_WORK_LISTS WorkLists: tiles with a surface
 const uint TILE_CLUSTERS_SPLITS = 4u;   // WorkList: tiles to be split
-const uint TILE_CLUSTERS_FRAME = 5u;    // FrameParams
-const uint TILE_CLUSTERS_GBUFFER = 6u; // six bindings (shared/host_gbuffer_data.h); split_tiles has
-                                       // those of the normals only
 struct TileClustersParams {
     uint tileCount;
     uint firstSplit, splitCapacity; // first cluster of split tiles; how many tiles can be split
@@ -128,7 +123,6 @@ const uint SPLIT_TILES_GROUP = 64u;
 const uint BLOCK_CLUSTERS_GROUP = 64u;
 const uint BLOCK_CLUSTERS_CLUSTERS = 0u;
 const uint BLOCK_CLUSTERS_TILES = 1u;
-const uint BLOCK_CLUSTERS_FRAME = 2u; // FrameParams
 struct BlockClustersParams {
     uint tileCountX, tileCountY;
     uint blockFirst; // index in the buffer of TileClusters
@@ -145,18 +139,14 @@ const uint CLUSTER_LISTS_GROUP = 32u;
 // Specialisation constant: lanes of a group, 8, 16 or 32. Tests choose fewer than
 // CLUSTER_LISTS_GROUP, so that a group is one subgroup on devices with small ones.
 const uint SPEC_LISTS_LANES = 7u;
-const uint CLUSTER_LISTS_CORE = 0u;
-const uint CLUSTER_LISTS_CORE_WORDS = 1u;
-const uint CLUSTER_LISTS_NODES = 2u;
-const uint CLUSTER_LISTS_NODE_WORDS = 3u;
-const uint CLUSTER_LISTS_CLUSTERS = 4u;
-const uint CLUSTER_LISTS_TILES = 5u;
-const uint CLUSTER_LISTS_SPLITS = 6u;
-const uint CLUSTER_LISTS_LISTS = 7u;
-const uint CLUSTER_LISTS_ENTRIES = 8u;
-const uint CLUSTER_LISTS_UNLISTED = 9u; // TILE_WORK_LISTS WorkLists: tiles with unlisted clusters
-const uint CLUSTER_LISTS_COUNTERS = 10u;
-const uint CLUSTER_LISTS_LIT = 11u; // TILE_WORK_LISTS WorkLists: tiles with lists that hold lights
+const uint CLUSTER_LISTS_CLUSTERS = 2u;
+const uint CLUSTER_LISTS_TILES = 3u;
+const uint CLUSTER_LISTS_SPLITS = 4u;
+const uint CLUSTER_LISTS_LISTS = 5u;
+const uint CLUSTER_LISTS_ENTRIES = 6u;
+const uint CLUSTER_LISTS_UNLISTED = 7u; // TILE_WORK_LISTS WorkLists: tiles with unlisted clusters
+const uint CLUSTER_LISTS_COUNTERS = 8u;
+const uint CLUSTER_LISTS_LIT = 9u; // TILE_WORK_LISTS WorkLists: tiles with lists that hold lights
 // The clusters whose lists are made:
 const uint LISTS_OF_BLOCKS = 0u; // those of firstCluster and clusterCount
 const uint LISTS_OF_TILES = 1u;  // tiles that are not split, block by block: lanes share parents

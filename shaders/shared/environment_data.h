@@ -17,13 +17,13 @@ GPU_BEGIN
 const float ENVIRONMENT_MAX_LUMINANCE = 2e12f;
 
 const uint ENVIRONMENT_GROUP = 8u; // x and y, for all kernels that prepare an image
+const uint ENVIRONMENT_IMAGE = 0u; // binding of environment_cube and environment_cells
 
 // --- environment_cube: makes mip 0 from the equirectangular image, one lane per texel, z = face.
 // Each part of the image gives its luminance times solid angle to the texels around it, in shares
 // that add up to 1 and keep its place on the face (a tent per texel), so that sum and first moment
 // stay the same. Next to the edges of a face the outer texel gets all. A texel holds its sum
 // divided by the solid angle that it has gathered.
-const uint ENVIRONMENT_CUBE_IMAGE = 0u;
 const uint ENVIRONMENT_CUBE_OUTPUT = 1u;
 const uint ENVIRONMENT_CUBE_MIRROR = 2u; // level 0 of the prefiltered cube
 // Texels near the poles gather from whole rows of the image. So that their loops stay below the
@@ -66,7 +66,6 @@ const uint ENVIRONMENT_LAST_LEVEL_SIZE = 8u;
 
 // --- environment_cells: integrates luminance times direction over each cell of a grid of polar
 // angles and azimuths, per channel, exactly for texels of constant luminance. One lane per cell.
-const uint ENVIRONMENT_CELLS_IMAGE = 0u;
 const uint ENVIRONMENT_CELLS_OUTPUT = 1u; // mat3 per cell, row by row; a column is a channel
 const uint ENVIRONMENT_CELL_ROWS = 64u;
 const uint ENVIRONMENT_CELL_COLUMNS = 128u;
@@ -90,13 +89,10 @@ const uint ENVIRONMENT_IRRADIANCE_NORMALS = 5u; // and as many opposite ones: of
 // --- shade_environment: one lane per pixel
 const uint SHADE_ENVIRONMENT_GROUP = 8u; // x and y
 const uint SHADE_ENVIRONMENT_DEPTH = 0u;
-const uint SHADE_ENVIRONMENT_RADIANCE = 1u;
-const uint SHADE_ENVIRONMENT_CUBE = 2u;
-const uint SHADE_ENVIRONMENT_PREFILTERED = 3u;
-const uint SHADE_ENVIRONMENT_IRRADIANCE = 4u;
-const uint SHADE_ENVIRONMENT_DFG = 5u;
-const uint SHADE_ENVIRONMENT_FRAME = 6u;   // FrameParams
-const uint SHADE_ENVIRONMENT_GBUFFER = 7u; // six bindings (shared/host_gbuffer_data.h)
+const uint SHADE_ENVIRONMENT_CUBE = 1u;
+const uint SHADE_ENVIRONMENT_PREFILTERED = 2u;
+const uint SHADE_ENVIRONMENT_IRRADIANCE = 3u;
+const uint SHADE_ENVIRONMENT_DFG = 4u;
 struct ShadeEnvironmentParams {
     mat3 environmentFromView; // rotation
     float lastLevel;          // last level of the prefiltered cube

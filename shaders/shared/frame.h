@@ -18,6 +18,11 @@ struct Projection {
 };
 GPU_SIZE(Projection, 56)
 
+// Bindings that are the same in all kernels of the lighting and the environment module that have
+// them.
+const uint RADIANCE_IMAGE = 7u; // the scene radiance
+const uint FRAME_PARAMS = 23u;
+
 const uint COMPENSATE_ENERGY = 256u; // bit of FrameParams::lobes
 
 struct FrameParams {

@@ -41,14 +41,17 @@ struct StoredDepth {
 };
 GPU_SIZE(StoredDepth, 20)
 
-// The images, as a kernel binds them: their binding numbers relative to that of the first. What a
-// layout stores as packed integers and what it stores as floats are different images to a shader.
-const uint GBUFFER_PACKED_NORMAL = 0u;   // FULL, COMPACT
-const uint GBUFFER_PACKED_ALBEDO = 1u;   // FULL
-const uint GBUFFER_PACKED_SPECULAR = 2u; // FULL
-const uint GBUFFER_NORMAL = 3u;          // HOST
-const uint GBUFFER_ALBEDO = 4u;          // HOST, COMPACT
-const uint GBUFFER_SPECULAR = 5u;        // HOST
+// Specialisation constant: the layout of the G-buffer.
+const uint SPEC_GBUFFER = 3u;
+
+// Bindings of the images in all kernels that read them. What a layout stores as packed integers and
+// what it stores as floats are different images to a shader.
+const uint GBUFFER_PACKED_NORMAL = 16u;   // FULL, COMPACT
+const uint GBUFFER_PACKED_ALBEDO = 17u;   // FULL
+const uint GBUFFER_PACKED_SPECULAR = 18u; // FULL
+const uint GBUFFER_NORMAL = 19u;          // HOST
+const uint GBUFFER_ALBEDO = 20u;          // HOST, COMPACT
+const uint GBUFFER_SPECULAR = 21u;        // HOST
 
 GPU_END
 

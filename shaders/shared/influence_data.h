@@ -65,7 +65,7 @@ struct InfluenceData {
 GPU_SIZE(InfluenceData, 116)
 
 // --- measure_influence: lights of one type. The kernel evaluates lights as shade_brute does and
-// has the same bindings except SHADE_RADIANCE. Several lanes share one sample: each takes some of
+// has the same bindings except RADIANCE_IMAGE. Several lanes share one sample: each takes some of
 // the lights and keeps its own sums in shared memory. Every device has shared memory for 32 lanes.
 const uint MEASURE_INFLUENCE_GROUP = 32u;
 const uint MEASURE_INFLUENCE_LANES = 16u; // per sample

@@ -2,7 +2,7 @@
 // Sorting of lights by type, class of influence radius and position along a Morton curve, so that
 // neighbours in memory are neighbours in space. It is a stable radix sort: runs of consecutive
 // lights are counted and scattered, so the order depends only on the lights. A run is the work of a
-// group on GPUs, and of a lane on llvmpipe.
+// group on GPUs, and of a lane on CPU devices (kernels/cpu).
 #ifndef CND_SHARED_LIGHT_ORDER_DATA_H
 #define CND_SHARED_LIGHT_ORDER_DATA_H
 
@@ -45,16 +45,17 @@ struct LightKeysParams {
 };
 GPU_SIZE(LightKeysParams, 32)
 
-// --- sort_count, sort_sums, sort_offsets, sort_scatter: one pass over a digit
-const uint SORT_COUNT_KEYS = 0u;
-const uint SORT_COUNT_COUNTS = 1u; // [digit][run]
-const uint SORT_SUMS_COUNTS = 0u;  // replaced by exclusive sums over each SORT_SUM counters
-const uint SORT_SUMS_SUMS = 1u;    // total of each SORT_SUM counters
-const uint SORT_OFFSETS_SUMS = 0u; // replaced by exclusive sums over all totals
-const uint SORT_SCATTER_FROM = 0u;
-const uint SORT_SCATTER_TO = 1u;
-const uint SORT_SCATTER_COUNTS = 2u;
-const uint SORT_SCATTER_SUMS = 3u;
+// --- sort_count, sort_sums, sort_offsets, sort_scatter: one pass over a digit; all have these
+// bindings
+const uint SORT_FROM = 0u; // LightKey
+const uint SORT_TO = 1u;
+const uint SORT_COUNTS = 2u; // [digit][run], replaced by exclusive sums over each SORT_SUM of them
+const uint SORT_SUMS = 3u;   // totals of these, replaced by exclusive sums over all
+// Specialisation constant of sort_lights, and its values: which of the kernels it replaces.
+const uint SPEC_SORT_STEP = 0u;
+const uint SORT_STEP_COUNT = 0u;
+const uint SORT_STEP_SUMS = 1u;
+const uint SORT_STEP_SCATTER = 2u;
 struct SortParams {
     uint lightCount;
     uint runCount;

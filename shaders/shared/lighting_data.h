@@ -71,6 +71,12 @@ GPU_SIZE(PolygonRecord, 120)
 const float BOUNDING_RADIUS_OF_NONE = -UNBOUNDED;
 const float INFLUENCE2_OF_NONE = -1.0f;
 const uint LIGHT_CORE_STRIDE = 2u;
+// Bindings of core in all kernels that read lights, and of the nodes of the light tree in all that
+// search it. The same buffers are bound as storage buffers and as texel buffers.
+const uint LIGHT_CORE_TEXELS = 0u;
+const uint LIGHT_CORE = 1u;
+const uint TREE_NODE_TEXELS = 14u;
+const uint TREE_NODES = 15u;
 
 const uint TILE_SIZE = 8u; // pixels; one shading workgroup per tile
 // The light tree (shared/cluster_data.h) over the lights of one type.
@@ -141,24 +147,17 @@ GPU_SIZE(PrepareLightsParams, 68)
 
 // --- shade_tiles, shade_unlisted, shade_brute, count_pairs: 8x8 pixels per group, one lane per
 // pixel
-const uint SHADE_CORE = 0u;
-const uint SHADE_CORE_WORDS = 1u;
 const uint SHADE_SHAPES = 2u;
-const uint SHADE_FRAME = 3u;     // FrameParams
 const uint SHADE_LIGHT_IDS = 4u; // read only for the host's shadow term
 const uint SHADE_PAIRS = 5u;     // count_pairs: CndLightingFrame::pairImage
 const uint SHADE_DEPTH = 6u;
-const uint SHADE_RADIANCE = 7u;
 const uint SHADE_DFG = 8u; // table of the directional albedo (shared/dfg.h)
 // The next four are not in shade_brute (shared/cluster_data.h):
 const uint SHADE_TILES = 9u;
 const uint SHADE_LISTS = 10u;
 const uint SHADE_ENTRIES = 11u;
-const uint SHADE_WORK = 12u;     // TILE_WORK_LISTS WorkLists: the tiles to shade
-const uint SHADE_COUNTERS = 13u; // count_pairs
-const uint SHADE_NODES = 14u;    // shade_unlisted
-const uint SHADE_NODE_WORDS = 15u;
-const uint SHADE_GBUFFER = 16u;      // six bindings (shared/host_gbuffer_data.h)
+const uint SHADE_WORK = 12u;         // TILE_WORK_LISTS WorkLists: the tiles to shade
+const uint SHADE_COUNTERS = 13u;     // count_pairs
 const uint SHADE_ENTRY_TEXELS = 22u; // the same buffer as SHADE_ENTRIES
 const uint PIXEL_OF_TILE = 1u;       // the values of CndPixelClass
 const uint PIXEL_OF_SLICE = 2u;
@@ -200,16 +199,11 @@ struct CountPairsParams {
 GPU_SIZE(CountPairsParams, 12)
 
 // Specialisation constants of the kernels above.
-const uint SPEC_LIGHTS_AS_TEXELS = 0u; // 1: read core and list entries as texel buffers;
-                                       // 0: as storage buffers
-const uint SPEC_SPECULAR_METHOD = 1u;  // SPECULAR_*
-const uint SPEC_LIGHT_TYPE = 2u;       // LIGHT_* of every light in the batch
-const uint SPEC_GBUFFER = 3u;          // layout of the G-buffer (shared/host_gbuffer_data.h)
-const uint SPEC_TILE_CLASS = 4u;       // CLASS_* of the tiles: which work list
-const uint SPEC_FINDS_DIFFUSE = 5u;    // tile_clusters: 1: find the tiles of CLASS_DIFFUSE
-// Chooses the form of kernels that have two. 1: the lanes of a group share the work on one cluster,
-// node, tile, block or run of lights, for GPUs; 0: each lane has work of its own, for llvmpipe.
-const uint SPEC_LANES_TOGETHER = 6u;
+const uint SPEC_FOR_CPU = 0u;         // 1: the kernel runs on a CPU device (lights/light_limits.h)
+const uint SPEC_SPECULAR_METHOD = 1u; // SPECULAR_*
+const uint SPEC_LIGHT_TYPE = 2u;      // LIGHT_* of every light in the batch
+const uint SPEC_TILE_CLASS = 4u;      // CLASS_* of the tiles: which work list
+const uint SPEC_FINDS_DIFFUSE = 5u;   // tile_clusters: 1: find the tiles of CLASS_DIFFUSE
 // shade_tiles: the height of the tiles that the kernel shades, ANY_HEIGHT or another. The kernel
 // takes tiles from the work list of this height and does not evaluate lights that the height rules
 // out.

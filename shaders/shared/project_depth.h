@@ -14,7 +14,6 @@ GPU_BEGIN
 const uint PROJECT_DEPTH_GROUP = 8u; // x and y
 const uint PROJECT_DEPTH_STORED = 0u;
 const uint PROJECT_DEPTH_OUTPUT = 1u;
-const uint PROJECT_DEPTH_FRAME = 2u; // FrameParams
 struct ProjectDepthParams {
     StoredDepth depth;
 };

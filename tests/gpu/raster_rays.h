@@ -9,7 +9,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "gpu/gbuffer_harness.h"
-#include "shared/gbuffer.h"
+#include "shared/gbuffer_data.h"
 
 namespace candelabra::test
 {

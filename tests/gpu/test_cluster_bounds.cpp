@@ -85,13 +85,11 @@ struct Kernels {
     bool lanesTogether;
 
     Kernels(const gpu::Device& device, uint32_t gbuffer, bool together)
-        : tile(device, spirv::tile_clusters_comp,
-               {{gpu::SPEC_GBUFFER, gbuffer},
-                {gpu::SPEC_FINDS_DIFFUSE, true},
-                {gpu::SPEC_LANES_TOGETHER, together}}),
-          split(device, spirv::split_tiles_comp,
-                {{gpu::SPEC_GBUFFER, gbuffer}, {gpu::SPEC_LANES_TOGETHER, together}}),
-          block(device, spirv::block_clusters_comp, {{gpu::SPEC_LANES_TOGETHER, together}}),
+        : tile(device, together ? spirv::tile_clusters_comp : spirv::cpu_tile_clusters_comp,
+               {{gpu::SPEC_GBUFFER, gbuffer}, {gpu::SPEC_FINDS_DIFFUSE, true}}),
+          split(device, together ? spirv::split_tiles_comp : spirv::cpu_split_tiles_comp,
+                {{gpu::SPEC_GBUFFER, gbuffer}}),
+          block(device, together ? spirv::block_clusters_comp : spirv::cpu_block_clusters_comp),
           lanesTogether(together)
     {
     }
@@ -177,19 +175,17 @@ State ClusterBoundsTest::stateOf(const Kernels& k, const Places& at,
     for (uint32_t i = 0; i < TILE_CLASSES; ++i)
         s.ofClass.as<WorkList>()[i].first = i * tiles;
     const Binding depth = Binding::sampled(TILE_CLUSTERS_DEPTH, views.depth),
-                  params = uniforms.at(0, TILE_CLUSTERS_FRAME),
+                  params = uniforms.at(0),
                   toClusters = Binding::of(TILE_CLUSTERS_CLUSTERS, s.clusters),
                   toTiles = Binding::of(TILE_CLUSTERS_TILES, s.tiles),
                   toSplits = Binding::of(TILE_CLUSTERS_SPLITS, s.splits);
     s.tileSet.write(0,
                     {depth, params, toClusters, toTiles, toSplits,
                      Binding::of(TILE_CLUSTERS_SURFACES, s.ofClass)},
-                    views.bindings(TILE_CLUSTERS_GBUFFER));
-    s.splitSet.write(0, {depth, params, toClusters, toTiles, toSplits},
-                     views.normalBindings(TILE_CLUSTERS_GBUFFER));
+                    views.bindings());
+    s.splitSet.write(0, {depth, params, toClusters, toTiles, toSplits}, views.normalBindings());
     s.blockSet.write(0, {Binding::of(BLOCK_CLUSTERS_CLUSTERS, s.clusters),
-                         Binding::of(BLOCK_CLUSTERS_TILES, s.tiles),
-                         uniforms.at(0, BLOCK_CLUSTERS_FRAME)});
+                         Binding::of(BLOCK_CLUSTERS_TILES, s.tiles), uniforms.at(0)});
     return s;
 }
 

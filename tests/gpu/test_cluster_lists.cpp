@@ -296,25 +296,23 @@ Made ClusterListsTest::make(const Scene& s, Form form, const Limits& limits)
     // Both ways to read lights, one with each form, as far as texel buffers are large enough.
     const bool fit = std::max(core.size, nodes.size) / sizeof(glm::vec4) <=
                      device().limits.maxTexelBufferElements;
-    const SpecConstant together{SPEC_LANES_TOGETHER, form.together},
-        texels{SPEC_LIGHTS_AS_TEXELS, !form.together && fit};
-    const Kernel<LightTreeParams> tree(device(), spirv::light_tree_comp, {together, texels});
-    const Kernel<ClusterListsParams> lists(device(), spirv::cluster_lists_comp,
-                                           {together, texels, {SPEC_LISTS_LANES, form.lanes}});
+    const SpecConstant texels{SPEC_FOR_CPU, !form.together && fit};
+    const Kernel<LightTreeParams> tree(
+        device(), form.together ? spirv::light_tree_comp : spirv::cpu_light_tree_comp, {texels});
+    const Kernel<ClusterListsParams> lists(
+        device(), form.together ? spirv::cluster_lists_comp : spirv::cpu_cluster_lists_comp,
+        {texels, {SPEC_LISTS_LANES, form.lanes}});
     const Bindings treeSet = tree.createBindings(1), listSet = lists.createBindings(1);
-    treeSet.write(0,
-                  {Binding::ofTexels(LIGHT_TREE_CORE, core),
-                   Binding::of(LIGHT_TREE_CORE_WORDS, core), Binding::of(LIGHT_TREE_NODES, nodes)});
+    treeSet.write(0, {Binding::ofTexels(LIGHT_CORE_TEXELS, core), Binding::of(LIGHT_CORE, core),
+                      Binding::of(LIGHT_TREE_NODES, nodes)});
     listSet.write(
-        0,
-        {Binding::ofTexels(CLUSTER_LISTS_CORE, core), Binding::of(CLUSTER_LISTS_CORE_WORDS, core),
-         Binding::ofTexels(CLUSTER_LISTS_NODES, nodes),
-         Binding::of(CLUSTER_LISTS_NODE_WORDS, nodes),
-         Binding::of(CLUSTER_LISTS_CLUSTERS, clusters), Binding::of(CLUSTER_LISTS_TILES, tiles),
-         Binding::of(CLUSTER_LISTS_SPLITS, splits), Binding::of(CLUSTER_LISTS_LISTS, heads),
-         Binding::of(CLUSTER_LISTS_ENTRIES, entries), Binding::of(CLUSTER_LISTS_LIT, lit),
-         Binding::of(CLUSTER_LISTS_UNLISTED, unlisted),
-         Binding::of(CLUSTER_LISTS_COUNTERS, counters)});
+        0, {Binding::ofTexels(LIGHT_CORE_TEXELS, core), Binding::of(LIGHT_CORE, core),
+            Binding::ofTexels(TREE_NODE_TEXELS, nodes), Binding::of(TREE_NODES, nodes),
+            Binding::of(CLUSTER_LISTS_CLUSTERS, clusters), Binding::of(CLUSTER_LISTS_TILES, tiles),
+            Binding::of(CLUSTER_LISTS_SPLITS, splits), Binding::of(CLUSTER_LISTS_LISTS, heads),
+            Binding::of(CLUSTER_LISTS_ENTRIES, entries), Binding::of(CLUSTER_LISTS_LIT, lit),
+            Binding::of(CLUSTER_LISTS_UNLISTED, unlisted),
+            Binding::of(CLUSTER_LISTS_COUNTERS, counters)});
     Timer timer(device(), "lists", 1, false);
     context().submitAndWait([&](VkCommandBuffer cmd) {
         timer.begin(cmd, 0);

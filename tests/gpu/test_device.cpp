@@ -91,9 +91,9 @@ TEST_F(LightingTest, FormsForGpusGiveTheSameBits)
     compare(mixed, 0);
 }
 
-// GPUs read the lights of several tests at once (READS_AHEAD in shading/light_walk.glsl), which
-// gives the same bits for small and large spheres, and for lists of any length up to a page, and of
-// several pages.
+// GPUs read the lights of several tests at once (READS_AHEAD in shading/classify_lights.glsl).
+// This gives the same bits for small and large spheres, and for lists of any length up to a page,
+// and of several pages.
 TEST_F(LightingTest, LightsReadAheadGiveTheSameBits)
 {
     const CpuGBuffer g = randomGBuffer(75, 53, 31);

@@ -38,29 +38,24 @@ protected:
 Keys LightOrderTest::sorted(const Keys& keys, bool lanesTogether)
 {
     using namespace gpu;
-    const SpecConstant together{SPEC_LANES_TOGETHER, lanesTogether};
-    const Kernel<SortParams> count(device(), spirv::sort_count_comp, {together});
-    const Kernel<SortParams> addUp(device(), spirv::sort_sums_comp, {together});
+    const auto make = [&](const Spirv& ofGroups, uint32_t step) {
+        return Kernel<SortParams>(device(), lanesTogether ? ofGroups : spirv::cpu_sort_lights_comp,
+                                  {{SPEC_SORT_STEP, step}});
+    };
+    const auto count = make(spirv::sort_count_comp, SORT_STEP_COUNT);
+    const auto addUp = make(spirv::sort_sums_comp, SORT_STEP_SUMS);
     const Kernel<SortParams> offsets(device(), spirv::sort_offsets_comp);
-    const Kernel<SortParams> scatter(device(), spirv::sort_scatter_comp, {together});
+    const auto scatter = make(spirv::sort_scatter_comp, SORT_STEP_SCATTER);
     SortParams params{.lightCount = uint32_t(keys.size()),
                       .runCount = divideUp(uint32_t(keys.size()), SORT_RUN)};
     const uint32_t sumCount = divideUp(SORT_DIGITS * params.runCount, SORT_SUM);
     const Buffer buffers[] = {upload("keys", keys), upload("other keys", keys)};
     const Buffer counts = readback("counts", SORT_DIGITS * params.runCount * sizeof(uint32_t));
     const Buffer sums = readback("sums", sumCount * sizeof(uint32_t));
-    const Bindings countSets = count.createBindings(2), scatterSets = scatter.createBindings(2),
-                   sumSet = addUp.createBindings(1), offsetSet = offsets.createBindings(1);
-    for (uint32_t i : {0u, 1u}) {
-        countSets.write(
-            i, {Binding::of(SORT_COUNT_KEYS, buffers[i]), Binding::of(SORT_COUNT_COUNTS, counts)});
-        scatterSets.write(i, {Binding::of(SORT_SCATTER_FROM, buffers[i]),
-                              Binding::of(SORT_SCATTER_TO, buffers[1 - i]),
-                              Binding::of(SORT_SCATTER_COUNTS, counts),
-                              Binding::of(SORT_SCATTER_SUMS, sums)});
-    }
-    sumSet.write(0, {Binding::of(SORT_SUMS_COUNTS, counts), Binding::of(SORT_SUMS_SUMS, sums)});
-    offsetSet.write(0, {Binding::of(SORT_OFFSETS_SUMS, sums)});
+    const Bindings sets = offsets.createBindings(2);
+    for (uint32_t i : {0u, 1u})
+        sets.write(i, {Binding::of(SORT_FROM, buffers[i]), Binding::of(SORT_TO, buffers[1 - i]),
+                       Binding::of(SORT_COUNTS, counts), Binding::of(SORT_SUMS, sums)});
     Timer timer(device(), "sort", 1, false);
     context().submitAndWait([&](VkCommandBuffer cmd) {
         timer.begin(cmd, 0);
@@ -74,11 +69,11 @@ Keys LightOrderTest::sorted(const Keys& keys, bool lanesTogether)
         };
         for (uint32_t pass = 0; pass < passes; ++pass) {
             params.shift = pass * SORT_DIGIT_BITS;
-            dispatch(count, countSets.set(pass % 2), params.runCount);
-            dispatch(addUp, sumSet.set(0), sumCount);
-            offsets.dispatch(f, offsetSet.set(0), params, 1);
+            dispatch(count, sets.set(pass % 2), params.runCount);
+            dispatch(addUp, sets.set(pass % 2), sumCount);
+            offsets.dispatch(f, sets.set(pass % 2), params, 1);
             fullBarrier(cmd);
-            dispatch(scatter, scatterSets.set(pass % 2), params.runCount);
+            dispatch(scatter, sets.set(pass % 2), params.runCount);
         }
     });
     const auto out = buffers[passes % 2].as<LightKey>();

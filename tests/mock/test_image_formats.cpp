@@ -83,7 +83,7 @@ TEST(ImageFormats, OneImageOfAKernelChangesItsType)
     for (const gpu::Spirv* kernel : spirv::shade_tiles_comp)
         for (const VkFormat format : {VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_R16G16B16A16_SFLOAT,
                                       VK_FORMAT_B10G11R11_UFLOAT_PACK32}) {
-            const gpu::FormattedSpirv made(*kernel, gpu::SHADE_RADIANCE, format,
+            const gpu::FormattedSpirv made(*kernel, gpu::RADIANCE_IMAGE, format,
                                            gpu::StorageUse::ReadAndWrite);
             const std::span<const uint32_t> words = made.get().words;
             EXPECT_EQ(gpu::reflect(made.get()), gpu::reflect(*kernel));

@@ -19,6 +19,7 @@ FOLDERS = [
     # Shaders of hosts include shaders/shading/forward_lights.glsl by this name.
     ("shaders/lib/forward.glsl", ["shaders/shading/forward_lights.glsl"]),
     ("shaders/kernels/common", ["shaders/shading", "shaders/lib", "shaders/shared"]),
+    ("shaders/kernels/cpu", ["shaders/kernels/common", "shaders/shading", "shaders/lib", "shaders/shared"]),
     ("shaders/kernels", ["shaders/kernels/common", "shaders/shading", "shaders/lib", "shaders/shared"]),
     ("shaders/gbuffer", ["shaders/lib", "shaders/shared"]),
     ("shaders/bench", ["shaders/kernels/common", "shaders/shading", "shaders/lib", "shaders/shared"]),

@@ -62,7 +62,8 @@ TEST(Compiler, MakesTheKernelsThatTheFunctionsBelongIn)
                          .specularMethods = 1u << CND_SPECULAR_KARIS}),
               (std::set<std::string>{"shade_tiles:SPHERE", "shade_unlisted:SPHERE",
                                      "shade_brute:SPHERE", "count_pairs:SPHERE", "tile_clusters",
-                                     "split_tiles", "surface_overlay", "shade_environment"}));
+                                     "split_tiles", "cpu/tile_clusters", "cpu/split_tiles",
+                                     "surface_overlay", "shade_environment"}));
 }
 
 TEST(Compiler, ErrorsNameTheLineOfTheSource)

@@ -72,7 +72,7 @@ TEST(Pipelines, VariantsAreNamedByWhatTheyShade)
     const std::map<std::string, uint32_t> shading{{"lightType", CND_LIGHT_SPHERE},
                                                   {"specularMethod", CND_SPECULAR_CONIC},
                                                   {"tileClass", gpu::CLASS_ANY},
-                                                  {"lightsAsTexels", 1}};
+                                                  {"forCpu", 1}};
     EXPECT_EQ(variant("shade_tiles", shading), "sphere conic");
     auto changed = shading;
     changed["tileClass"] = gpu::CLASS_DIFFUSE;

@@ -52,7 +52,7 @@ struct Light {
 // BenchResponse.
 struct Response {
     double f = 0, a = 0, b = 0;
-    uint32_t way = 0; // EVALUATE_*: the case that shading/light_walk.glsl finds for the light
+    uint32_t way = 0; // EVALUATE_*: the case that shading/classify_lights.glsl finds for the light
 };
 
 // Throws std::logic_error if the type of light or the method is unknown.

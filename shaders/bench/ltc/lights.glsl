@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // A rival of the engine's closed forms: lights evaluated by linearly transformed cosines. The functions
 // have the names of those in shading/light_eval.glsl and bench/evaluate_classified.glsl, for a receiver
-// of their own. Include it after shading/light_walk.glsl, compiled for the family POLYGON. The form
+// of their own. They are compiled for the family POLYGON. The form
 // factor of polygons and rectangles is the contour integral by which the specular lobe is evaluated,
 // too.
 #ifndef CND_BENCH_LTC_LIGHTS
 #define CND_BENCH_LTC_LIGHTS
 
 #include "bench/ltc/lobes.glsl"
+#include "shading/light_walk.glsl"
 #include "lib/lights/sphere.glsl"
 #include "lib/lights/sphere_cap.glsl"
 
@@ -90,12 +91,12 @@ vec3 evaluateByCosines(LtcReceiver r, uint index, bool above)
         (diffuseResponse(r.base.p, response.formFactor) + schlick(r.base.p, response.specular));
 }
 
-vec3 evaluateAbove(LtcReceiver r, uint light)
+vec3 evaluate_ABOVE(LtcReceiver r, uint light)
 {
     return evaluateByCosines(r, light, true);
 }
 
-vec3 evaluateGeneral(LtcReceiver r, uint light)
+vec3 evaluate_GENERAL(LtcReceiver r, uint light)
 {
     return evaluateByCosines(r, light, false);
 }
@@ -105,7 +106,7 @@ vec3 evaluateClassified(LtcReceiver r, uint light)
 {
     const Light seen = readLight(r.base, light);
     const bool reaches = dot(r.base.p.n, seen.toLight) > -seen.boundingRadius;
-    return reaches ? evaluateGeneral(r, light) : vec3(0.0);
+    return reaches ? evaluate_GENERAL(r, light) : vec3(0.0);
 }
 
 #endif

@@ -17,11 +17,10 @@ uint lightAt(uint k)
     return batch.first + k;
 }
 
-#include "shading/light_walk.glsl"
 #include "bench/ltc/lights.glsl"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
-layout(binding = SHADE_RADIANCE, rgba32f) uniform image2D radianceImage;
+layout(binding = RADIANCE_IMAGE, rgba32f) uniform image2D radianceImage;
 
 void main()
 {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scene radiance image, to which kernels add light. The includer defines RADIANCE_IMAGE, the number
-// of its binding, and FRAME_PARAMS. The host may choose another format, which the engine then writes
-// over this one (gpu/image_format.h).
+// The scene radiance image, to which kernels add light. The host may choose another format, which the
+// engine then writes over this one (gpu/image_format.h).
 #include "kernels/common/frame_params.glsl"
 
 layout(binding = RADIANCE_IMAGE, rgba32f) uniform image2D radianceImage;

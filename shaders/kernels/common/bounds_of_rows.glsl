@@ -2,14 +2,14 @@
 // Bounds of clusters made by several lanes: each takes a row of the tile's pixels. So the lanes walk
 // eight pixels instead of 64, one after the other, and spend hardly more instructions in all. The rows
 // are joined in shared memory. Minima and maxima do not depend on the order in which they are taken, so
-// the bounds have the same bits as those that one lane makes. The includer defines GROUP_LANES, the
-// number of lanes of a group, and includes kernels/common/cluster_bounds.glsl.
+// the bounds have the same bits as those that one lane makes. Include it after the layout of the group.
 #ifndef CND_COMMON_BOUNDS_OF_ROWS
 #define CND_COMMON_BOUNDS_OF_ROWS
 
+#include "kernels/common/cluster_bounds.glsl"
 #include "lib/ordered_bits.glsl"
 
-const uint CLUSTERS_OF_GROUP = GROUP_LANES / TILE_SIZE;
+const uint CLUSTERS_OF_GROUP = gl_WorkGroupSize.x / TILE_SIZE;
 
 // What the rows find the lowest of. The highest z, for instance, is the lowest of -z.
 const uint LEAST_PIXEL = 0u; // with a sample, counted row by row
@@ -109,7 +109,7 @@ void findBounds(FrameParams frame, SamplesOfTile samples, Cluster c)
 // Finds the bounds of one cluster by each TILE_SIZE lanes. All lanes of the group must call it.
 void findBoundsByRows(FrameParams frame, uint tile, SamplesOfTile samples)
 {
-    for (uint i = gl_LocalInvocationIndex; i < CLUSTERS_OF_GROUP * LEAST_COUNT; i += GROUP_LANES)
+    for (uint i = gl_LocalInvocationIndex; i < CLUSTERS_OF_GROUP * LEAST_COUNT; i += gl_WorkGroupSize.x)
         least[i] = 0xFFFFFFFFu;
     barrier();
     findRange(frame, samples);

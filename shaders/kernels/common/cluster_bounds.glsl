@@ -2,11 +2,11 @@
 // Bounds of surface samples: a box, a slab along an axis near their normals, a cone of normals and a
 // cone of view rays. They are made from the exact positions instead of a slice of the frustum, so that
 // lights are culled against the surfaces that are there.
+#ifndef CND_COMMON_CLUSTER_BOUNDS
+#define CND_COMMON_CLUSTER_BOUNDS
+
 #include "shared/cluster_data.h"
 #include "lib/cluster_margins.glsl"
-#define GBUFFER_CODE SPEC_GBUFFER
-#define GBUFFER_IMAGES TILE_CLUSTERS_GBUFFER
-#define FRAME_PARAMS TILE_CLUSTERS_FRAME
 #include "kernels/common/read_gbuffer.glsl"
 #include "lib/projection.glsl"
 #include "lib/tile_pixels.glsl"
@@ -26,7 +26,7 @@ float depthAt(uvec2 pixel)
 }
 
 // The functions take the parameters of the frame as an argument, which callers copy from the uniform
-// buffer before they loop over samples: llvmpipe reads a uniform again in each turn of a loop.
+// buffer before they loop over samples (shading/software_drivers.glsl).
 Cluster emptyCluster(FrameParams frame, uint tile)
 {
     const uvec2 middle = firstPixelOfTile(tile, frame.size.x) + TILE_SIZE / 2u;
@@ -66,17 +66,4 @@ void addSample(inout Cluster c, Sample s)
     c.slope = max(c.slope, aside < MAX_SLOPE * ahead ? aside / ahead : MAX_SLOPE);
 }
 
-// Adds a sample to a cluster. The normal of the first sample becomes the axis.
-void addSampleInOrder(inout Cluster c, Sample s)
-{
-    c.axis = isEmpty(c) ? s.normal : c.axis;
-    addSample(c, s);
-}
-
-// Returns the i-th pixel of a tile, row by row. `last` is the last pixel of the tile that lies in the
-// image. Pixels beyond it are replaced by pixels within, so that a tile always has TILE_SIZE^2, of
-// which some may come twice.
-uvec2 pixelOfTile(uvec2 first, uvec2 last, uint i)
-{
-    return min(first + uvec2(i % TILE_SIZE, i / TILE_SIZE), last);
-}
+#endif

@@ -1,9 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the cluster of each list that cluster_lists makes, and appends tiles to the work lists. The
-// includer provides params, counters, tiles[] and splits.
+// The bindings of cluster_lists, the cluster of each list that it makes, and the work lists of tiles
+// that it fills.
 #ifndef CND_COMMON_CLUSTER_OF_LIST
 #define CND_COMMON_CLUSTER_OF_LIST
 
+#include "kernels/common/light_stream.glsl"
+#include "kernels/common/light_tree.glsl"
+#include "shared/cluster_data.h"
+
+layout(push_constant, scalar) uniform Push
+{
+    ClusterListsParams params;
+};
+layout(scalar, binding = CLUSTER_LISTS_CLUSTERS) readonly buffer Clusters
+{
+    Cluster clusters[];
+};
+layout(scalar, binding = CLUSTER_LISTS_TILES) buffer Tiles
+{
+    TileClusters tiles[];
+};
+layout(scalar, binding = CLUSTER_LISTS_SPLITS) readonly buffer Splits
+{
+    WorkList splits;
+};
+layout(scalar, binding = CLUSTER_LISTS_LISTS) buffer Lists
+{
+    uint lists[];
+};
+layout(scalar, binding = CLUSTER_LISTS_ENTRIES) buffer Entries
+{
+    uint entries[];
+};
+layout(scalar, binding = CLUSTER_LISTS_COUNTERS) buffer Counters
+{
+    LightingCounters counters;
+};
 layout(scalar, binding = CLUSTER_LISTS_LIT) buffer Lit
 {
     WorkList lit[TILE_WORK_LISTS];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the equirectangular image of an environment. The includer defines ENVIRONMENT_IMAGE, its
-// binding. No sampler is used, so that the host's image may have any format and usage.
+// Reads the equirectangular image of an environment. No sampler is used, so that the host's image may
+// have any format and usage.
 #ifndef CND_KERNELS_ENVIRONMENT_IMAGE
 #define CND_KERNELS_ENVIRONMENT_IMAGE
 

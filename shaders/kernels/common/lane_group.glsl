@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the LANES invocations of a workgroup, at most 32, decide together. Subgroups may have any size.
-// The includer defines LANES. All lanes call each function, in the same order.
+// The lanes of a group of cluster_lists, at most 32, and what they decide together. Subgroups may have
+// any size. All lanes call each function, in the same order.
 #ifndef CND_COMMON_LANE_GROUP
 #define CND_COMMON_LANE_GROUP
 
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
+
+#include "shared/cluster_data.h"
+
+layout(local_size_x = CLUSTER_LISTS_GROUP, local_size_x_id = SPEC_LISTS_LANES) in;
+layout(constant_id = SPEC_LISTS_LANES) const uint LANES = CLUSTER_LISTS_GROUP;
 
 uint lane;            // index of this lane in the group
 bool oneSubgroup;     // one subgroup holds the group

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads nodes of the light tree in the same way as light_stream.glsl reads lights. Include it after
-// that file. The includer defines the binding ids TREE_NODES and TREE_NODE_WORDS.
+// Reads nodes of the light tree.
 #ifndef CND_COMMON_LIGHT_TREE
 #define CND_COMMON_LIGHT_TREE
 
 #include "lib/light_tree_walk.glsl"
 #include "lib/bounds.glsl"
+#include "shading/software_drivers.glsl"
 
-layout(binding = TREE_NODES) uniform textureBuffer treeTexels;
-layout(scalar, binding = TREE_NODE_WORDS) readonly buffer TreeWords
+layout(binding = TREE_NODE_TEXELS) uniform textureBuffer treeTexels;
+layout(scalar, binding = TREE_NODES) readonly buffer TreeWords
 {
     vec4 treeWords[];
 };
@@ -17,9 +17,7 @@ layout(scalar, binding = TREE_NODE_WORDS) readonly buffer TreeWords
 Box treeBox(uint node)
 {
     const uint at = node * TREE_NODE_STRIDE;
-    if (lightsAsTexels != 0u)
-        return Box(texelFetch(treeTexels, int(at)).xyz, texelFetch(treeTexels, int(at + 1u)).xyz);
-    return Box(treeWords[at].xyz, treeWords[at + 1u].xyz);
+    return Box(READ(treeWords, treeTexels, at).xyz, READ(treeWords, treeTexels, at + 1u).xyz);
 }
 
 Box treeNode(TreeWalk walk)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The form of cluster_lists for GPUs: the lanes of a group make one list together. In each turn a lane
+// The lanes of a group make one list together. In each turn a lane
 // tests up to TESTS_PER_LANE lights, which are LANES apart, and the group appends those that touch the
-// cluster in their order. The includer provides bindings and params of cluster_lists.
+// cluster in their order.
 #ifndef CND_COMMON_LIST_BY_GROUP
 #define CND_COMMON_LIST_BY_GROUP
 

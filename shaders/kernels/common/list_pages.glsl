@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The list of one cluster while it is written into pages of the entry buffer. The includer provides
-// entries[], counters and params.
+// The list of one cluster while it is written into pages of the entry buffer, and its end.
 #ifndef CND_COMMON_LIST_PAGES
 #define CND_COMMON_LIST_PAGES
 
-#include "shared/cluster_data.h"
+#include "kernels/common/cluster_of_list.glsl"
 
 const uint NO_PAGE = 0u;
 
@@ -13,13 +12,12 @@ struct ListWriter {
     uint inPage;         // lights on the last page
     uint found;          // lights
     bool full;           // the buffer had no page left: lights are still counted, but not written
-    uint height;         // height of the list's tile by the lights so far (shared/lighting_data.h)
 };
 
 // A list begins as if it had a complete page.
 ListWriter beginList()
 {
-    return ListWriter(NO_PAGE, NO_PAGE, PAGE_LIGHTS, 0u, false, ANY_HEIGHT);
+    return ListWriter(NO_PAGE, NO_PAGE, PAGE_LIGHTS, 0u, false);
 }
 
 // Takes a page of the entry buffer, or returns NO_PAGE if none is left. The cursor does not wrap: a
@@ -60,6 +58,27 @@ uint endList(ListWriter list, bool tooLong)
            : list.found == 0u ? LIST_EMPTY
            : list.full        ? LIST_UNLISTED
                               : list.headPage;
+}
+
+// Appends the tile of a cluster that lights touch to the tiles that are shaded with lists or to
+// those that are shaded without, and counts the cluster's list. `height`: that of the tile.
+void appendTile(uint tile, ListWriter list, bool tooLong, uint height)
+{
+    const bool withoutList = tooLong || (list.full && list.found != 0u);
+    if (withoutList)
+        appendUnlisted(tile);
+    else if (list.found != 0u)
+        appendLit(tile, height);
+    atomicAdd(counters.listEntries, withoutList ? 0u : list.found);
+    atomicMax(counters.maxListLength, list.found);
+}
+
+// Completes the list of a cluster, which belongs to `tile` unless it is a block's.
+void completeList(uint at, uint tile, ListWriter list, bool tooLong, uint height)
+{
+    lists[at] = endList(list, tooLong);
+    if (params.which != LISTS_OF_BLOCKS)
+        appendTile(tile, list, tooLong, height);
 }
 
 #endif

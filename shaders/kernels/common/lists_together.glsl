@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Short lists in the form of cluster_lists for GPUs. Most lists of tiles and of slices are found
+// Short lists. Most lists of tiles and of slices are found
 // among fewer lights than a group has lanes, so a group per list would leave most lanes idle.
 // Instead one group makes several of them at once.
 //
@@ -12,8 +12,6 @@
 // The group numbers the pairs of a short list and a light of its parent: first the pairs of the
 // first list, in the order of the lights, then those of the next list. Each turn tests LANES
 // consecutive pairs, one per lane, whichever lists they belong to.
-//
-// The includer provides bindings and params of cluster_lists.
 #ifndef CND_COMMON_LISTS_TOGETHER
 #define CND_COMMON_LISTS_TOGETHER
 
@@ -143,7 +141,7 @@ uint makeShortLists(uint firstList)
 ListWriter shortList(uint list)
 {
     const uint page = setPage[list], found = setFound[list];
-    return ListWriter(page, page, found, found, found != 0u && page == NO_PAGE, ANY_HEIGHT);
+    return ListWriter(page, page, found, found, found != 0u && page == NO_PAGE);
 }
 
 #endif

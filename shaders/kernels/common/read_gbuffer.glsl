@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads a G-buffer of any layout. The layout is a specialisation constant, so that code for other
-// layouts is compiled away. The includer defines GBUFFER_CODE, the id of that constant, and the binding
-// numbers FRAME_PARAMS and GBUFFER_IMAGES, the first of those in shared/host_gbuffer_data.h. It defines
-// GBUFFER_NORMALS_ONLY if it reads nothing else. With CANDELABRA_READ_SURFACE the host defines
-// candelabraReadSurface() for the custom layout.
+// layouts is compiled away. The includer defines GBUFFER_NORMALS_ONLY if it reads nothing else. With
+// CANDELABRA_READ_SURFACE the host defines candelabraReadSurface() for the custom layout.
 #extension GL_EXT_samplerless_texture_functions : require
 #include "shared/host_gbuffer_data.h"
 #include "kernels/common/frame_params.glsl"
@@ -19,8 +17,8 @@ const uint roughnessChannel = (gbufferCode >> GBUFFER_ROUGHNESS_SHIFT) & GBUFFER
 const uint metalnessChannel = (gbufferCode >> GBUFFER_METALNESS_SHIFT) & GBUFFER_CHANNEL_MASK;
 const uint f90Channel = (gbufferCode >> GBUFFER_F90_SHIFT) & GBUFFER_CHANNEL_MASK;
 
-layout(binding = GBUFFER_IMAGES + GBUFFER_PACKED_NORMAL) uniform utexture2D packedNormalImage;
-layout(binding = GBUFFER_IMAGES + GBUFFER_NORMAL) uniform texture2D normalImage;
+layout(binding = GBUFFER_PACKED_NORMAL) uniform utexture2D packedNormalImage;
+layout(binding = GBUFFER_NORMAL) uniform texture2D normalImage;
 
 // Returns the normal that the host stored, in its space and with any length.
 vec3 storedNormal(vec4 texel)
@@ -82,10 +80,10 @@ vec3 readNormal(ivec2 pixel)
 
 #ifndef GBUFFER_NORMALS_ONLY
 
-layout(binding = GBUFFER_IMAGES + GBUFFER_PACKED_ALBEDO) uniform utexture2D packedAlbedoImage;
-layout(binding = GBUFFER_IMAGES + GBUFFER_PACKED_SPECULAR) uniform utexture2D packedSpecularImage;
-layout(binding = GBUFFER_IMAGES + GBUFFER_ALBEDO) uniform texture2D albedoImage;
-layout(binding = GBUFFER_IMAGES + GBUFFER_SPECULAR) uniform texture2D specularImage;
+layout(binding = GBUFFER_PACKED_ALBEDO) uniform utexture2D packedAlbedoImage;
+layout(binding = GBUFFER_PACKED_SPECULAR) uniform utexture2D packedSpecularImage;
+layout(binding = GBUFFER_ALBEDO) uniform texture2D albedoImage;
+layout(binding = GBUFFER_SPECULAR) uniform texture2D specularImage;
 
 struct HostTexels {
     vec4 normal, albedo, specular;

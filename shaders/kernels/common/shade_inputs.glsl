@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bindings that the kernels share which evaluate lights per pixel.
 #include "shared/lighting_data.h"
-#define GBUFFER_CODE SPEC_GBUFFER
-#define GBUFFER_IMAGES SHADE_GBUFFER
-#define FRAME_PARAMS SHADE_FRAME
 #include "kernels/common/read_gbuffer.glsl"
 #include "lib/brdf.glsl"
 #include "lib/projection.glsl"
-#define LIGHT_STREAM_CORE SHADE_CORE
-#define LIGHT_STREAM_CORE_WORDS SHADE_CORE_WORDS
 #include "kernels/common/light_stream.glsl"
 
 layout(scalar, binding = SHADE_SHAPES) readonly buffer LightShapes

@@ -1,25 +1,55 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the kernels of a sorting pass share: their parameters, the digit of a key, and who works on a
-// run. On GPUs the lanes of a group work on one run together. On llvmpipe each lane has a run of its
-// own.
+// What the kernels of a sorting pass share: their groups, parameters and bindings, and the digit of a
+// key.
 #include "shared/light_order_data.h"
-#include "shared/lighting_data.h"
 
 layout(local_size_x = SORT_GROUP) in;
-layout(constant_id = SPEC_LANES_TOGETHER) const bool lanesTogether = true;
 layout(push_constant, scalar) uniform Push
 {
     SortParams params;
 };
-
-// Returns the index of this group or lane, which works on the run, or the sum, of that index.
-uint indexOfWorker()
+layout(scalar, binding = SORT_FROM) readonly buffer From
 {
-    const uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-    return lanesTogether ? group : group * SORT_GROUP + gl_LocalInvocationIndex;
+    LightKey from[];
+};
+layout(scalar, binding = SORT_TO) writeonly buffer To
+{
+    LightKey to[];
+};
+layout(scalar, binding = SORT_COUNTS) buffer Counts
+{
+    uint counts[];
+};
+layout(scalar, binding = SORT_SUMS) buffer Sums
+{
+    uint sums[];
+};
+
+uint indexOfGroup()
+{
+    return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
 }
 
 uint digitOf(uint key)
 {
     return key >> params.shift & (SORT_DIGITS - 1u);
+}
+
+// Replaces the counters first .. end - 1 by `before` plus their exclusive prefix sums. Returns `before`
+// plus the total.
+uint addUp(uint first, uint end, uint before)
+{
+    for (uint i = first; i < end; ++i) {
+        const uint here = counts[i];
+        counts[i] = before;
+        before += here;
+    }
+    return before;
+}
+
+// Returns the position of the first light of a run that has the digit.
+uint firstOf(uint d, uint run)
+{
+    const uint at = d * params.runCount + run;
+    return counts[at] + sums[at / SORT_SUM];
 }

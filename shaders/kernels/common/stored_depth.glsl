@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the host's depth image holds, as depth under the frame's projection. For linear depths and
-// positions, surfaces/projection.h chooses the depth part of that projection. The includer defines
-// GBUFFER_CODE, the id of the specialisation constant of shared/host_gbuffer_data.h, and FRAME_PARAMS.
+// positions, surfaces/projection.h chooses the depth part of that projection.
 #ifndef CND_COMMON_STORED_DEPTH
 #define CND_COMMON_STORED_DEPTH
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the tile that a workgroup shades, on the work list of its height and class, and the clusters of
-// its pixels. The includer includes kernels/common/frame_params.glsl first.
+// Finds the tile that a workgroup shades, on the work list of its class, and the clusters of its
+// pixels.
 #ifndef CND_COMMON_TILE_OF_GROUP
 #define CND_COMMON_TILE_OF_GROUP
 
+#include "kernels/common/frame_params.glsl"
+#include "shading/software_drivers.glsl"
 #include "shared/cluster_data.h"
 #include "shared/lighting_data.h"
 #include "lib/tile_pixels.glsl"
@@ -30,13 +32,14 @@ uint clusterOf(uint tile, float depth)
     return tiles[tile].first + ((depthBits(depth) - tiles[tile].lowest) >> tiles[tile].shift);
 }
 
-// Sets the tile of this workgroup, from the work list of its class and of a height, such as ANY_HEIGHT.
-// Returns false after the last tile.
-bool takeTile(uint height, out uint tile)
+// Sets the tile of this workgroup and the pixel of this lane. Returns false after the last tile and
+// outside the image.
+bool takeTile(out uint tile, out uvec2 pixel)
 {
-    const WorkList work = works[height * TILE_CLASSES + tileClass];
+    const WorkList work = works[tileHeight * TILE_CLASSES + tileClass];
     const uint at = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
     tile = 0u;
+    pixel = uvec2(0u);
     if (at >= work.count)
         return false;
     // Split tiles, which take longest, are at the end of the list. Tiles are taken from there, so that
@@ -45,16 +48,6 @@ bool takeTile(uint height, out uint tile)
     const uint firsts = (work.count + 1u) / 2u;
     const uint fromEnd = at < firsts ? 2u * at : 2u * (at - firsts) + 1u;
     tile = workTiles[work.first + work.count - 1u - fromEnd];
-    return true;
-}
-
-// Sets the tile of this workgroup and the pixel of this lane. Returns false after the last tile and
-// outside the image.
-bool takeTile(uint height, out uint tile, out uvec2 pixel)
-{
-    pixel = uvec2(0u);
-    if (!takeTile(height, tile))
-        return false;
     pixel = firstPixelOfTile(tile, frameParams.size.x) + pixelOfLane(gl_LocalInvocationIndex);
     return all(lessThan(pixel, frameParams.size));
 }

@@ -15,7 +15,7 @@
 
 #include "lib/outline/outline.glsl"
 
-// shading/light_walk.glsl relies on this value: a light in the class `above` has no lower band.
+// shading/classify_lights.glsl relies on this value: a light in the class `above` has no lower band.
 const float BAND_HEIGHT = 0.2;
 
 bool hasLowerBand(Outline k)

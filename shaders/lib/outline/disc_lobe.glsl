@@ -162,8 +162,8 @@ float squaredOff(Outline k, RimPoint a, RimMiddle m, RimPoint b)
     return off * off * length2(eye) / max(length2(w), MIN_LENGTH2);
 }
 
-// Adds the whole rim of a disc that shading/light_walk.glsl takes for easy. Its pieces are not halved,
-// though those of a few of these discs leave the rim by up to 0.004.
+// Adds the whole rim of a disc that shading/classify_lights.glsl takes for easy. Its pieces are not
+// halved, though those of a few of these discs leave the rim by up to 0.004.
 void addSmallRim(inout Outline k, DiscView d)
 {
     const RimPoints points = makeRimPoints(k, d);

@@ -5,7 +5,8 @@
 // vec2(F = 1, F = (1 - VoH)^5) to a light of luminance 1, in [0, 1].
 //
 // Lights are in classes by their height above the horizon, each with a function of its own
-// (shading/light_walk.glsl), because on llvmpipe every branch is paid for, even if no lane takes it.
+// (shading/classify_lights.glsl), because on llvmpipe every branch is paid for, even if no lane takes
+// it.
 #ifndef CND_LIB_SPECULAR_CONIC
 #define CND_LIB_SPECULAR_CONIC
 

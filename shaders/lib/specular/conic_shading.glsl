@@ -127,6 +127,35 @@ LightHeights lightHeights(ConicPoint p, CapHeights z, float v1)
     return weighHeights(p, z, nodes, reachA * reachA + across, reachB * reachB + across);
 }
 
+// The two nodes of N . L in step 3 of shadeTwoNodes, as steps from the mean in standard deviations, and
+// the difference of their weights.
+struct BetaNodes {
+    float stepLow, stepHigh, weight;
+};
+
+// `largest` is L. The half skewness is t / scale here.
+BetaNodes betaNodes(LightHeights z, float mean, float v, float deviation, float largest)
+{
+    const float scale = largest + v + MIN_VARIANCE;
+    const float t = (z.low + z.high - 2.0 * mean) * deviation;
+    const float root = sqrt(t * t + scale * scale);
+    const float inverse = 1.0 / (root * scale); // one division for two reciprocals
+    return BetaNodes((t - root) * root * inverse, (t + root) * root * inverse, t * scale * inverse);
+}
+
+// Returns (1 - VoH)^5 at the half vectors that lead to both nodes, which are the steps x and y along d.
+// `mm` is m . m, and `vm` is v . m, before the steps; dv, ds and dd are the products of d with v, with
+// the slope and with itself.
+vec2 fresnelAtNodes(vec2 steps, float mm, float vm, float dv, float ds, float dd)
+{
+    const float mmLow = max(mm + steps.x * (2.0 * ds + steps.x * dd), 1e-6);
+    const float mmHigh = max(mm + steps.y * (2.0 * ds + steps.y * dd), 1e-6);
+    const float inverse = 1.0 / (mmLow * mmHigh);
+    const float VoHLow = saturate((vm + steps.x * dv) * sqrt(mmHigh * inverse));
+    const float VoHHigh = saturate((vm + steps.y * dv) * sqrt(mmLow * inverse));
+    return vec2(pow5(1.0 - VoHLow), pow5(1.0 - VoHHigh));
+}
+
 // Returns the response with two nodes of N . L.
 //
 // 1. For narrow lobes the slopes determine N . L. The mean of N . L is its value at the mean slope. The
@@ -194,34 +223,20 @@ vec2 shadeTwoNodes(ConicPoint p, ConicRegion o, LightHeights z, float elongation
     // quotients `wide` and `share` (in lightHeights) may be an ulp above 1. The root of v would then be
     // NaN, which the last min() of this function would turn into a full response.
     const float v = max(min(blended, 0.95 * largest), 0.0);
-    // Steps from the mean to the nodes, in standard deviations. The half skewness is t / scale here.
     const float deviation = sqrt(v);
-    const float scale = largest + v + MIN_VARIANCE;
-    const float t = (z.low + z.high - 2.0 * mean) * deviation;
-    const float root = sqrt(t * t + scale * scale);
-    const float invThird = 1.0 / (root * scale);
-    const float stepLow = (t - root) * root * invThird;
-    const float stepHigh = (t + root) * root * invThird;
-    const float weight = t * scale * invThird;
-
-    const float below = max(mean + deviation * stepLow, 1e-6);
-    const float above = mean + deviation * stepHigh;
+    const BetaNodes nodes = betaNodes(z, mean, v, deviation, largest);
+    const float below = max(mean + deviation * nodes.stepLow, 1e-6);
+    const float above = mean + deviation * nodes.stepHigh;
     const float shadowBelow = below * p.smithV + p.NoV * smith(p, below);
     const float shadowAbove = above * p.smithV + p.NoV * smith(p, above);
     const float share = o.integral * o.mu / (shadowBelow * shadowAbove);
-    const float low = share * (1.0 + weight) * below * shadowAbove;
-    const float high = share * (1.0 - weight) * above * shadowBelow;
-
-    const float slopeLow = meanSlope * (rel + CONIC_FRESNEL_STEP * stepLow);
-    const float slopeHigh = meanSlope * (rel + CONIC_FRESNEL_STEP * stepHigh);
-    // m . m and v . h at the half vectors of both nodes.
+    const float low = share * (1.0 + nodes.weight) * below * shadowAbove;
+    const float high = share * (1.0 - nodes.weight) * above * shadowBelow;
+    const vec2 steps = vec2(meanSlope * (rel + CONIC_FRESNEL_STEP * nodes.stepLow),
+                            meanSlope * (rel + CONIC_FRESNEL_STEP * nodes.stepHigh));
     const float mm = m2 + CONIC_FRESNEL_LENGTHENING * slopeRadius2 / partial;
-    const float mmLow = max(mm + slopeLow * (2.0 * ds + slopeLow * dd), 1e-6);
-    const float mmHigh = max(mm + slopeHigh * (2.0 * ds + slopeHigh * dd), 1e-6);
-    const float invMm = 1.0 / (mmLow * mmHigh);
-    const float VoHLow = saturate((o.mu + slopeLow * dv) * sqrt(mmHigh * invMm));
-    const float VoHHigh = saturate((o.mu + slopeHigh * dv) * sqrt(mmLow * invMm));
-    return min(vec2(low + high, low * pow5(1.0 - VoHLow) + high * pow5(1.0 - VoHHigh)), vec2(1.0));
+    const vec2 fresnel = fresnelAtNodes(steps, mm, o.mu, dv, ds, dd);
+    return min(vec2(low + high, low * fresnel.x + high * fresnel.y), vec2(1.0));
 }
 
 #endif

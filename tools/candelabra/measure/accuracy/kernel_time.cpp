@@ -107,7 +107,7 @@ public:
             v.formFactor ? spirv::time_form_factor_comp_sphere
             : isRival    ? spirv::time_lights_comp_ltc
                          : ofFamily(spirv::time_lights_comp, v.evaluation),
-            {{gpu::SPEC_LIGHTS_AS_TEXELS, lighting::lightsAsTexels(device)},
+            {{gpu::SPEC_FOR_CPU, lighting::forCpu(device)},
              {gpu::SPEC_SPECULAR_METHOD, v.evaluation.method.specular},
              {gpu::SPEC_LIGHT_TYPE, v.evaluation.lightType},
              {gpu::SPEC_BENCH_EVALUATION, uint32_t(v.evaluationCase)},

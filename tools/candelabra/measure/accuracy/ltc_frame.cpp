@@ -65,22 +65,21 @@ void LtcFrame::add(uint32_t lightType, const std::vector<CndLight>& lights)
     OfType out{.lights = uploadLights(device, lights),
                .kernel = {device,
                           spirv::shade_frame_comp,
-                          {{SPEC_LIGHTS_AS_TEXELS, lighting::lightsAsTexels(device)},
+                          {{SPEC_FOR_CPU, lighting::forCpu(device)},
                            {SPEC_SPECULAR_METHOD, options_.specular},
                            {SPEC_LIGHT_TYPE, lightType},
                            {SPEC_GBUFFER, gbuffer_.code()}}},
                .bindings = {}};
     out.bindings = out.kernel.createBindings(1);
-    out.bindings.write(0,
-                       {Binding::ofTexels(SHADE_CORE, out.lights.core),
-                        Binding::of(SHADE_CORE_WORDS, out.lights.core),
-                        Binding::of(SHADE_SHAPES, out.lights.shapes),
-                        Binding::of(SHADE_LIGHT_IDS, out.lights.shapes), // bound, but not read
-                        uniforms_.at(0, SHADE_FRAME), Binding::sampled(SHADE_DEPTH, frame_.depth),
-                        Binding::storage(SHADE_RADIANCE, frame_.radiance),
-                        Binding::ofTexels(SHADE_DFG, dfg_.buffer()),
-                        Binding::ofTexels(BENCH_LTC, ltcTable_)},
-                       gbuffer_.views(frame_).bindings(SHADE_GBUFFER));
+    out.bindings.write(
+        0,
+        {Binding::ofTexels(LIGHT_CORE_TEXELS, out.lights.core),
+         Binding::of(LIGHT_CORE, out.lights.core), Binding::of(SHADE_SHAPES, out.lights.shapes),
+         Binding::of(SHADE_LIGHT_IDS, out.lights.shapes), // bound, but not read
+         uniforms_.at(0), Binding::sampled(SHADE_DEPTH, frame_.depth),
+         Binding::storage(RADIANCE_IMAGE, frame_.radiance),
+         Binding::ofTexels(SHADE_DFG, dfg_.buffer()), Binding::ofTexels(BENCH_LTC, ltcTable_)},
+        gbuffer_.views(frame_).bindings());
     types_.push_back(std::move(out));
 }
 

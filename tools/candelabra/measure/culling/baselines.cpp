@@ -44,24 +44,20 @@ gpu::Buffer texels(const gpu::Device& device, const char* name, VkDeviceSize cou
 Baselines::Kernels::Kernels(const gpu::Device& device)
     : prepare(device, spirv::prepare_lights_comp),
       spheres(device, spirv::baseline_spheres_comp),
-      tiles(device, spirv::baseline_tiles_comp,
-            {{gpu::SPEC_LIGHTS_AS_TEXELS, lighting::lightsAsTexels(device)}}),
+      tiles(device, spirv::baseline_tiles_comp, {{gpu::SPEC_FOR_CPU, lighting::forCpu(device)}}),
       count(device, spirv::baseline_froxels_comp,
-            {{gpu::SPEC_LIGHTS_AS_TEXELS, lighting::lightsAsTexels(device)},
-             {gpu::SPEC_FROXELS_ENTER, 0}}),
+            {{gpu::SPEC_FOR_CPU, lighting::forCpu(device)}, {gpu::SPEC_FROXELS_ENTER, 0}}),
       enter(device, spirv::baseline_froxels_comp,
-            {{gpu::SPEC_LIGHTS_AS_TEXELS, lighting::lightsAsTexels(device)},
-             {gpu::SPEC_FROXELS_ENTER, 1}}),
+            {{gpu::SPEC_FOR_CPU, lighting::forCpu(device)}, {gpu::SPEC_FROXELS_ENTER, 1}}),
       scan(device, spirv::baseline_scan_comp)
 {
     const auto make = [&](const gpu::Spirv& spirv, uint32_t baseline) {
-        return gpu::Kernel<gpu::NoParams>(
-            device, spirv,
-            {{gpu::SPEC_LIGHTS_AS_TEXELS, lighting::lightsAsTexels(device)},
-             {gpu::SPEC_SPECULAR_METHOD, CND_SPECULAR_CONIC},
-             {gpu::SPEC_LIGHT_TYPE, CND_LIGHT_SPHERE},
-             {gpu::SPEC_GBUFFER, CND_GBUFFER_FULL},
-             {gpu::SPEC_BASELINE, baseline}});
+        return gpu::Kernel<gpu::NoParams>(device, spirv,
+                                          {{gpu::SPEC_FOR_CPU, lighting::forCpu(device)},
+                                           {gpu::SPEC_SPECULAR_METHOD, CND_SPECULAR_CONIC},
+                                           {gpu::SPEC_LIGHT_TYPE, CND_LIGHT_SPHERE},
+                                           {gpu::SPEC_GBUFFER, CND_GBUFFER_FULL},
+                                           {gpu::SPEC_BASELINE, baseline}});
     };
     for (uint32_t i : {gpu::BASELINE_OF_TILES, gpu::BASELINE_OF_FROXELS}) {
         shade[i] = make(spirv::baseline_shade_comp_conic, i);
@@ -207,31 +203,31 @@ void Baselines::writeBindings()
     sets_.spheres.write(0, {Binding::of(BASELINE_SPHERES_CORE, core_),
                             Binding::of(BASELINE_SPHERES_OUTPUT, spheres_)});
     sets_.tiles.write(0, {Binding::sampled(BASELINE_TILES_DEPTH, frame_.depth),
-                          Binding::ofTexels(BASELINE_TILES_SPHERES, spheres_),
+                          Binding::ofTexels(BASELINE_SPHERE_TEXELS, spheres_),
                           Binding::of(BASELINE_TILES_HEADS, lists_[0].heads),
                           Binding::of(BASELINE_TILES_ENTRIES, lists_[0].entries),
                           Binding::of(BASELINE_TILES_COUNTERS, lists_[0].counters),
                           Binding::of(BASELINE_TILES_RANGES, ranges_),
-                          Binding::of(BASELINE_TILES_SPHERE_WORDS, spheres_)});
+                          Binding::of(BASELINE_SPHERES, spheres_)});
     for (const Bindings* set : {&sets_.count, &sets_.enter})
-        set->write(0, {Binding::ofTexels(BASELINE_FROXELS_SPHERES, spheres_),
+        set->write(0, {Binding::ofTexels(BASELINE_SPHERE_TEXELS, spheres_),
                        Binding::ofTexels(BASELINE_FROXELS_BOXES, boxes_),
                        Binding::of(BASELINE_FROXELS_HEADS, lists_[1].heads),
                        Binding::of(BASELINE_FROXELS_CURSORS, cursors_),
                        Binding::of(BASELINE_FROXELS_ENTRIES, lists_[1].entries),
-                       Binding::of(BASELINE_FROXELS_SPHERE_WORDS, spheres_),
+                       Binding::of(BASELINE_SPHERES, spheres_),
                        Binding::of(BASELINE_FROXELS_BOX_WORDS, boxes_)});
     sets_.scan.write(0, {Binding::of(BASELINE_SCAN_HEADS, lists_[1].heads),
                          Binding::of(BASELINE_SCAN_CURSORS, cursors_),
                          Binding::of(BASELINE_SCAN_COUNTERS, lists_[1].counters)});
-    const Binding core = Binding::ofTexels(SHADE_CORE, core_);
-    const Binding coreWords = Binding::of(SHADE_CORE_WORDS, core_);
+    const Binding core = Binding::ofTexels(LIGHT_CORE_TEXELS, core_);
+    const Binding coreWords = Binding::of(LIGHT_CORE, core_);
     const Binding shapes = Binding::of(SHADE_SHAPES, shapes_);
     const Binding ids = Binding::of(SHADE_LIGHT_IDS, order_); // bound, but not read
-    const std::array gbuffer = gbuffer_.views(frame_).bindings(SHADE_GBUFFER);
-    const Binding uniforms = uniforms_.at(0, SHADE_FRAME);
+    const std::array gbuffer = gbuffer_.views(frame_).bindings();
+    const Binding uniforms = uniforms_.at(0);
     const Binding depth = Binding::sampled(SHADE_DEPTH, frame_.depth);
-    const Binding radiance = Binding::storage(SHADE_RADIANCE, frame_.radiance);
+    const Binding radiance = Binding::storage(RADIANCE_IMAGE, frame_.radiance);
     const Binding dfg = Binding::ofTexels(SHADE_DFG, dfg_.buffer());
     const Binding found = Binding::of(BASELINE_FOUND, found_);
     for (size_t i = 0; i < 2; ++i) {

@@ -123,13 +123,12 @@ void writeBindings(const gpu::Bindings& bindings, const DeviceLights& lights,
     std::vector<Binding> more;
     if (ltcTable)
         more.push_back(Binding::ofTexels(gpu::BENCH_LTC, *ltcTable));
-    bindings.write(0,
-                   {Binding::ofTexels(gpu::BENCH_CORE, lights.core),
-                    Binding::of(gpu::BENCH_CORE_WORDS, lights.core),
-                    Binding::of(gpu::BENCH_SHAPES, lights.shapes),
-                    Binding::of(gpu::BENCH_INPUT, receivers),
-                    Binding::of(gpu::BENCH_OUTPUT, output)},
-                   more);
+    bindings.write(
+        0,
+        {Binding::ofTexels(gpu::LIGHT_CORE_TEXELS, lights.core),
+         Binding::of(gpu::LIGHT_CORE, lights.core), Binding::of(gpu::BENCH_SHAPES, lights.shapes),
+         Binding::of(gpu::BENCH_INPUT, receivers), Binding::of(gpu::BENCH_OUTPUT, output)},
+        more);
 }
 
 LightEvaluator::LightEvaluator(const VulkanContext& context, const Evaluation& evaluation)
@@ -139,7 +138,7 @@ LightEvaluator::LightEvaluator(const VulkanContext& context, const Evaluation& e
       kernel_(context.device(),
               isRival_ ? spirv::evaluate_lights_comp_ltc
                        : ofFamily(spirv::evaluate_lights_comp, evaluation),
-              {{gpu::SPEC_LIGHTS_AS_TEXELS, 0},
+              {{gpu::SPEC_FOR_CPU, 0},
                {gpu::SPEC_SPECULAR_METHOD, evaluation.method.specular},
                {gpu::SPEC_LIGHT_TYPE, evaluation.lightType}}),
       bindings_(kernel_.createBindings(1)),

@@ -85,8 +85,8 @@ std::string variantOf(const PipelineRequest& request)
         return lightTypeName(value("shape"));
     std::string out;
     for (const auto& [name, v] : constants)
-        if (name != "gbufferCode" && name != "gbufferLayout" && name != "lightsAsTexels" &&
-            name != "lanesTogether")
+        if (name != "gbufferCode" && name != "gbufferLayout" && name != "forCpu" &&
+            name != "tileHeight")
             out += fmt::format("{}{} {}", out.empty() ? "" : ", ", name, v);
     return out;
 }
