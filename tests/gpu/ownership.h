@@ -38,7 +38,7 @@ public:
     // Records barriers of the host. A barrier with two different families releases the image if it
     // is recorded for the source family, and acquires it if it is recorded for the destination
     // family. A barrier from VK_IMAGE_LAYOUT_UNDEFINED without a transfer takes the image from
-    // whoever owned it.
+    // its owner, whichever family that is.
     void barrier(VkCommandBuffer cmd, std::span<const VkImageMemoryBarrier2> barriers);
     // Runs code that records modules, to which other rules apply than to the host.
     template <typename Record>

@@ -16,7 +16,7 @@ namespace candelabra::test
 {
 
 enum class HostPass { DynamicRendering, RenderPass };
-// What stands for depth, and the projection with which the scene is drawn.
+// What replaces depth, and the projection with which the scene is drawn.
 enum class HostDepth {
     Reversed, // with an infinite far plane
     Standard, // 0 at the near plane, 1 at the far one

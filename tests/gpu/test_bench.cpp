@@ -143,7 +143,7 @@ TEST_F(Bench, FramesByTheClosedFormAreNearTheTruth)
         EXPECT_LT(conic.flip, karis.flip);
         EXPECT_GT(scene.points[1].time.lightingMs, 0);
         EXPECT_GT(scene.points[1].time.bruteForceMs, 0);
-        // The rival knows spheres, and the bars are of scenes that have them alone.
+        // Transformed cosines evaluate spheres, and the bars are for scenes that have only spheres.
         if (spheresAlone) {
             const ImageDifference& ltc = scene.points[2].error;
             std::cout << "  transformed cosines: " << ltc.relMse << ", " << ltc.flip << ", energy "
@@ -160,8 +160,7 @@ TEST_F(Bench, FramesByTheClosedFormAreNearTheTruth)
     }
 }
 
-// The errors of linearly transformed cosines that the engine had when they were its method: the
-// rival is as good as it was.
+// Linearly transformed cosines were once a method of the engine. Their errors are as small as then.
 TEST_F(Bench, TransformedCosinesAreAsGoodAsTheyWere)
 {
     struct Case {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // tile_clusters, split_tiles and block_clusters have a form for GPUs, in which several lanes make a
-// cluster, and one for llvmpipe, in which each lane works by itself. Both must make the same
+// cluster, and one for llvmpipe, in which each lane works alone. Both must make the same
 // clusters, on llvmpipe to the bit.
 #include <algorithm>
 #include <array>

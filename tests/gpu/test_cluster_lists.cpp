@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // light_tree and cluster_lists have a form for GPUs, in which the lanes of a group work together,
-// and one for llvmpipe, in which each lane works by itself. Both must make the same boxes and the
+// and one for llvmpipe, in which each lane works alone. Both must make the same boxes and the
 // same lists, to the bit.
 #include <algorithm>
 #include <iterator>
@@ -88,7 +88,7 @@ gpu::Cluster clusterIn(const Scene& s, uint32_t parent, float share, std::mt1993
             .minCos = 0};
 }
 
-// Adds to a cluster what clusters of tiles have besides: a slab, a cone of normals, a cone of
+// Adds what only clusters of tiles have: a slab, a cone of normals, a cone of
 // samples. One cluster in five has no sample.
 void makeClusterOfTile(gpu::Cluster& c, uint32_t tile, std::mt19937& random)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bounds of clusters must hold their samples wherever another pipeline places them: Vulkan lets
-// each pipeline's divisions be off by 2.5 ULP. No driver at hand differs by as much, so a probe
-// moves the samples.
+// each pipeline's divisions be off by 2.5 ULP. No driver that we have differs by as much, so a
+// probe moves the samples.
 #include <cmath>
 #include <iostream>
 #include <numbers>

@@ -248,7 +248,7 @@ TEST_F(EnvironmentTest, DirectionsScaleAndBackground)
         EXPECT_EQ(left[i], glm::vec4(3));
 }
 
-// Values that an image file may hold besides light.
+// Values in an image file that are not light.
 TEST_F(EnvironmentTest, BrokenPixelsStayFinite)
 {
     EXPECT_EQ(gpu::ENVIRONMENT_MAX_LUMINANCE, CND_ENVIRONMENT_MAX_LUMINANCE);

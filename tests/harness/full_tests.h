@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether tests do all that they can (tools/test --full), and whether they have AddressSanitizer.
+// Tells whether all tests run in full (tools/test --full), and whether they have AddressSanitizer.
 #pragma once
 
 #include <cstdlib>
@@ -8,8 +8,8 @@
 namespace candelabra::test
 {
 
-// Whether this is a build with AddressSanitizer (g++ and clang tell it in different ways), in which
-// tests take ten times as long.
+// Whether this is a build with AddressSanitizer (g++ and clang announce it in different ways), in
+// which tests take ten times as long.
 #if defined(__SANITIZE_ADDRESS__)
 inline constexpr bool sanitized = true;
 #elif defined(__has_feature)

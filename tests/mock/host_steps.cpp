@@ -388,7 +388,7 @@ std::string runSteps(const std::vector<Step>& steps, Host& h, CndResult expected
             EXPECT_EQ(error.vkResult, expectedVulkan) << step.name << ", " << h.vulkan.failed;
             EXPECT_GT(std::strlen(error.message), 10u) << step.name << ", " << h.vulkan.failed;
         }
-        // The previous set of lights must still stand, and be recordable.
+        // The previous set of lights must still exist, and be recordable.
         if (h.view && lightsBefore) {
             EXPECT_EQ(recordAgain(steps, h, &error), CND_SUCCESS) << error.message;
             CndLightingStats stats{.structSize = sizeof stats};

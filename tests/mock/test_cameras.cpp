@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wrong cameras that can be told from right ones are refused, each with its sentence, and no right
-// one is.
+// Detectably wrong cameras are refused, each with its sentence, and valid ones are accepted.
 #include <algorithm>
 #include <array>
 #include <string>

@@ -52,9 +52,9 @@ bool doesLess()
     return sanitized && !fullTests();
 }
 
-// Returns the indices of the calls that are to fail, of those that the steps make. These are all,
-// or, where tests do less, of the calls of one function in one step the first two and every eighth:
-// most are alike, since the same lines make all pipelines and all buffers.
+// Returns the indices of the calls that are to fail, of those that the steps make. These are all
+// calls. Where tests do less, they are the first two and every eighth call of one function in one
+// step. Most calls are similar, because the same lines make all pipelines and all buffers.
 std::vector<uint64_t> callsToFail(const std::vector<Step>& steps)
 {
     Host h;
@@ -130,7 +130,7 @@ TEST_P(Faults, TheHeapFailsInTurn)
     }
     ASSERT_GT(total, 1000u);
     std::cout << total << " allocations\n";
-    // Tries the first allocations one by one, then ever larger strides: most are alike, from
+    // Tries the first allocations one by one, then ever larger strides: most are similar, from
     // reading SPIR-V.
     const uint64_t oneByOne = doesLess() ? 20 : 100;
     for (uint64_t failing = 0; failing < total && !HasFailure();

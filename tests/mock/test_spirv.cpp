@@ -204,7 +204,7 @@ TEST(Spirv, ModulesThatAreNotWholeAreRefused)
     Words stuck = whole; // an instruction of no words
     stuck.back() = FunctionEnd;
     EXPECT_EQ(sentence(stuck), notWhole);
-    Words beyond = whole; // an instruction that goes on after the end
+    Words beyond = whole; // an instruction that extends beyond the end
     beyond.back() = 2u << 16 | FunctionEnd;
     EXPECT_EQ(sentence(beyond), notWhole);
 }

@@ -79,12 +79,12 @@ void putLittleEndian(Bytes& bytes, size_t at, uint32_t value)
 void addDataCases(std::vector<BrokenCase>& cases)
 {
     const auto add = [&](const char* name, int view, const auto& values, const char* element,
-                         bool isMended = false) {
+                         bool isRepaired = false) {
         GltfBuilder b = completeGltf();
         const size_t at = b.json["bufferViews"][static_cast<size_t>(view)]["byteOffset"];
         std::memcpy(b.binary.data() + at, values.data(), sizeof values[0] * values.size());
-        cases.push_back({name, "scene.gltf", bytesOf(b.text()), element, isMended});
-        cases.push_back({name, "scene.glb", b.glb(), element, isMended});
+        cases.push_back({name, "scene.gltf", bytesOf(b.text()), element, isRepaired});
+        cases.push_back({name, "scene.glb", b.glb(), element, isRepaired});
     };
     const float nan = std::numeric_limits<float>::quiet_NaN();
     add("position is not a number", 0, std::vector<float>{0, nan}, "accessors[0]: element 0");
@@ -97,7 +97,7 @@ void addDataCases(std::vector<BrokenCase>& cases)
     add("primitive restart", 3, std::vector<uint16_t>{65535}, "accessors[3] element 0 is 65535");
     add("sparse index beyond", 5, std::vector<uint16_t>{4}, "sparse index 4 is beyond");
     add("sparse value is not a number", 6, std::vector<float>{nan}, "accessors[0]: element 3");
-    add("image header is garbage", 7, std::vector<uint8_t>{1, 2, 3, 4}, "images[0]", mended);
+    add("image header is garbage", 7, std::vector<uint8_t>{1, 2, 3, 4}, "images[0]", repaired);
     // IHDR width, big-endian at byte 16: 2^24 pixels
     add(
         "image is too wide", 7,
@@ -106,7 +106,7 @@ void addDataCases(std::vector<BrokenCase>& cases)
             png[17] = 1;
             return png;
         }(),
-        "images[0]: ", mended);
+        "images[0]: ", repaired);
     add(
         "image data is garbage", 7,
         [&] {
@@ -115,7 +115,7 @@ void addDataCases(std::vector<BrokenCase>& cases)
                 png[i] = 0xaa;
             return png;
         }(),
-        "images[0]: cannot be decoded", mended);
+        "images[0]: cannot be decoded", repaired);
 }
 
 } // namespace
@@ -205,20 +205,20 @@ std::vector<BrokenCase> brokenGltfCases()
         b.json = edited(valid.json, edit);
         const bool isObject = b.json.is_object();
         const std::string text = isObject ? b.text() : b.json.dump();
-        cases.push_back({edit.name, "scene.gltf", bytesOf(text), edit.element, edit.isMended});
+        cases.push_back({edit.name, "scene.gltf", bytesOf(text), edit.element, edit.isRepaired});
         cases.push_back({edit.name, "scene.glb", isObject ? b.glb() : makeGlb(text, b.binary),
-                         edit.element, edit.isMended});
+                         edit.element, edit.isRepaired});
     }
     const Json withBuffers = Json::parse(valid.text());
     for (const Edit& edit : bufferEdits)
         cases.push_back({edit.name, "scene.gltf", bytesOf(edited(withBuffers, edit).dump()),
-                         edit.element, edit.isMended});
+                         edit.element, edit.isRepaired});
     Json longName = valid.json;
     longName["images"][0] = {{"uri", std::string(5000, 'x') + ".png"}};
     GltfBuilder b = valid;
     b.json = longName;
     cases.push_back(
-        {"image name too long", "scene.gltf", bytesOf(b.text()), "images[0].uri: \"xxx", mended});
+        {"image name too long", "scene.gltf", bytesOf(b.text()), "images[0].uri: \"xxx", repaired});
     addDataCases(cases);
     return cases;
 }
@@ -260,7 +260,7 @@ std::vector<BrokenCase> brokenSceneJsonCases()
     for (const Edit& edit : sceneEdits)
         cases.push_back({edit.name, "scene.json",
                          bytesOf(edited(Json::parse(completeSceneJson()), edit).dump()),
-                         edit.element, edit.isMended});
+                         edit.element, edit.isRepaired});
     return cases;
 }
 

@@ -16,7 +16,7 @@ struct BrokenCase {
     Bytes bytes;
     std::string element; // the error message must contain this
     // The scene is loaded, and a warning has the message.
-    bool isMended = false;
+    bool isRepaired = false;
 };
 
 // A valid glTF scene with nodes, a textured material with a normal map, sparse and quantised

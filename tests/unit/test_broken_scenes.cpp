@@ -41,13 +41,13 @@ void expectRefusedOrWarned(const TemporaryFolder& folder, const BrokenCase& brok
     try {
         const Scene scene = loadScene(file, {});
         EXPECT_EQ(brokenInvariant(scene), "") << broken.name;
-        ASSERT_TRUE(broken.isMended) << broken.name << " (" << broken.file << "): was loaded";
+        ASSERT_TRUE(broken.isRepaired) << broken.name << " (" << broken.file << "): was loaded";
         ASSERT_FALSE(scene.warnings.empty()) << broken.name;
         EXPECT_LE(scene.warnings.size(), 2u) << broken.name << ": " << scene.warnings.back();
         EXPECT_EQ(unfitMessage(scene.warnings[0], file, broken.element), "") << broken.name;
     } catch (const SceneError& e) {
         EXPECT_EQ(unfitMessage(e.what(), file, broken.element), "") << broken.name;
-        EXPECT_FALSE(broken.isMended) << e.what();
+        EXPECT_FALSE(broken.isRepaired) << e.what();
     } catch (const std::exception& e) {
         ADD_FAILURE() << broken.name << " (" << broken.file << "): " << e.what();
     }

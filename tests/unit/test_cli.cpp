@@ -261,7 +261,7 @@ TEST(Options, InfluenceErrorsAreSharesOfTheDisplay)
     EXPECT_THROW(arguments.influenceRule(), UsageError);
 }
 
-// A method that the engine had is refused with what to choose instead.
+// A method that the engine no longer has is refused, and the message names a replacement.
 TEST(Options, TransformedCosinesAreRefusedWithASentence)
 {
     FrameArguments arguments;

@@ -255,7 +255,7 @@ TEST_F(DefaultLight, EnvironmentsAreMeasuredAndScaled)
               std::string::npos);
 }
 
-// What a file may hold besides luminance is replaced, and counted in one warning.
+// Texels that are not a luminance are replaced, and counted in one warning.
 TEST_F(DefaultLight, TexelsThatAreNoLuminanceAreCounted)
 {
     Image image{.width = 64, .height = 32, .channels = 3, .pixels = {}};

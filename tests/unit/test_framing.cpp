@@ -313,7 +313,8 @@ TEST_F(Framing, MeshesWithVeryManyTrianglesAreSeenAsBoxesFromOutside)
     const OutsideView back = seen(1, most);
     EXPECT_NEAR(back.fronts, square, tolerance); // a box has no back
     EXPECT_NEAR(back.backs, 0.5 * square, tolerance);
-    // A file that is large itself is seen as it is, because its backs tell rooms from objects.
+    // Large meshes with few instances are not replaced by boxes, because backs distinguish rooms
+    // from objects.
     scene.instances.erase(scene.instances.begin() + 1, scene.instances.end() - 1);
     EXPECT_NEAR(seen(1, 1).backs, square, tolerance);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests that meshes stand in the pose of the file: morph targets by their weights, and skins by the
+// Tests that meshes have the pose of the file: morph targets by their weights, and skins by the
 // nodes that are their joints.
 #include <cmath>
 

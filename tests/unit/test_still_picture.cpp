@@ -123,7 +123,7 @@ TEST(StillPicture, WaitsUntilTheEyeHasAdapted)
     EXPECT_EQ(viewer.framesUntilSum(), 100u);
     viewer.evLeft = -0.5f * StillPicture::mostEvLeft;
     EXPECT_EQ(viewer.framesUntilSum(), 2u);
-    // Samples see other pixels and so other targets: the sum goes on.
+    // Samples see other pixels and so other targets. The sum continues.
     viewer.evLeft = 1;
     EXPECT_EQ(viewer.restOfSum(), pictureSamples);
 }

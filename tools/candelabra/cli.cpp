@@ -44,7 +44,7 @@ void setUpLogging(bool quiet)
 void addProgramOptions(CLI::App& app, ProgramContext& context)
 {
     app.require_subcommand(1);
-    app.fallthrough(); // --quiet may stand after the command, too
+    app.fallthrough(); // --quiet may also follow the command
     app.add_flag("-q,--quiet", context.quiet,
                  "print only warnings and errors on stderr, without progress and remarks");
     const uint32_t version = cndGetVersion();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scenes that the program makes itself, by the names that stand for them on the command line.
+// The scenes that the program generates, by their names on the command line.
 #pragma once
 
 #include <string>

@@ -247,8 +247,8 @@ constexpr Share<MakeSite> kinds[] = {{0.13f, onChandelier}, {0.17f, onCable},   
 
 std::vector<LightSite> lightSites(uint32_t count, const SceneOptions& options)
 {
-    // Streams of their own: the hall is the same for any number of lights, and resting and moving
-    // lights start from the same places.
+    // Lights have separate random streams, so the hall is the same for any number of lights, and
+    // resting and moving lights start from the same places.
     Random random(options.seed, 1), motionRandom(options.seed, 2);
     std::vector<LightSite> sites = keyLights(count, options.moving, motionRandom);
     sites.resize(std::min<size_t>(sites.size(), count));

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks and mends the JSON of a glTF file before tinygltf reads it, because tinygltf ignores
+// Checks and repairs the JSON of a glTF file before tinygltf reads it, because tinygltf ignores
 // properties of the wrong type and truncates large integers.
 //
-// One wrong value does not lose a file. A value that is not needed is replaced by what schema.h
-// says; an element that is wrong is left out, unless it is used and schema.h says that the file is
-// refused without it. An element that is left out leaves a stub in its array, so that indices stay
-// as they are; a primitive or an item of a list of indices is removed. Each time a warning names
-// the element, the value and what is used instead.
+// One wrong value does not lose a file. schema.h names the replacement of a value that is not
+// needed. A wrong element is left out, unless it is used and schema.h says that the file is refused
+// without it. It leaves a stub in its array, so indices stay valid; a primitive or an item of a
+// list of indices is removed. Each time a warning names the element, the value and the replacement.
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
@@ -129,14 +128,14 @@ GltfUse UseFinder::find()
     return used_;
 }
 
-class Mender
+class Repairer
 {
 public:
-    Mender(const std::string& file, Json& document, LoadWarnings& warnings)
+    Repairer(const std::string& file, Json& document, LoadWarnings& warnings)
         : file_(file), document_(document), warnings_(warnings), used_(UseFinder(document).find())
     {
     }
-    GltfUse mend();
+    GltfUse repair();
     // The first fault that may have lost a mesh.
     const std::optional<SceneError>& lostMesh() const { return lostMesh_; }
 
@@ -151,25 +150,25 @@ private:
         if (!lostMesh_)
             lostMesh_ = error;
     }
-    void mendArray(const schema::Array& array);
-    void mendElement(const schema::Array& array, Json& element, size_t index);
-    void mendObject(Json& value, const std::string& path, std::span<const Field> fields);
+    void repairArray(const schema::Array& array);
+    void repairElement(const schema::Array& array, Json& element, size_t index);
+    void repairObject(Json& value, const std::string& path, std::span<const Field> fields);
     // Returns false if the value is not to be used, and throws if that makes its owner wrong.
     bool keeps(Json& value, const std::string& path, const Field& field);
-    void mendValue(Json& value, const std::string& path, const Field& field);
-    void mendList(Json& value, const std::string& path, const Field& field);
-    void mendNumber(Json& value, const std::string& path, const Field& field);
-    void mendInteger(Json& value, const std::string& path, const NumberRange& range);
-    void mendIndex(Json& value, const std::string& path, const char* target);
-    void mendMap(Json& value, const std::string& path, const Field& field);
+    void repairValue(Json& value, const std::string& path, const Field& field);
+    void repairList(Json& value, const std::string& path, const Field& field);
+    void repairNumber(Json& value, const std::string& path, const Field& field);
+    void repairInteger(Json& value, const std::string& path, const NumberRange& range);
+    void repairIndex(Json& value, const std::string& path, const char* target);
+    void repairMap(Json& value, const std::string& path, const Field& field);
 
     // Rules that the tables of schema.h cannot express.
-    void mendVersion();
-    void mendBySpecialRules(const schema::Array& array, Json& element, const std::string& path);
-    void mendChoice(Json& owner, const std::string& path, const char* key, const char* instead,
-                    std::initializer_list<Json> allowed);
-    void mendBufferView(Json& view, const std::string& path);
-    void mendLight(Json& light, const std::string& path);
+    void repairVersion();
+    void repairBySpecialRules(const schema::Array& array, Json& element, const std::string& path);
+    void repairChoice(Json& owner, const std::string& path, const char* key, const char* instead,
+                      std::initializer_list<Json> allowed);
+    void repairBufferView(Json& view, const std::string& path);
+    void repairLight(Json& light, const std::string& path);
 
     const std::string& file_;
     Json& document_;
@@ -179,7 +178,7 @@ private:
     std::optional<SceneError> lostMesh_;
 };
 
-void Mender::mendInteger(Json& value, const std::string& path, const NumberRange& range)
+void Repairer::repairInteger(Json& value, const std::string& path, const NumberRange& range)
 {
     // glTF allows integers to be written as 1.0 or 1e0.
     if (value.is_number_float()) {
@@ -195,9 +194,9 @@ void Mender::mendInteger(Json& value, const std::string& path, const NumberRange
     at(value, path).integer(static_cast<int64_t>(range.min), static_cast<int64_t>(range.max));
 }
 
-void Mender::mendIndex(Json& value, const std::string& path, const char* target)
+void Repairer::repairIndex(Json& value, const std::string& path, const char* target)
 {
-    mendInteger(value, path, {0, schema::maxInteger});
+    repairInteger(value, path, {0, schema::maxInteger});
     const Json::json_pointer pointer(target);
     const size_t size = document_.contains(pointer) ? document_[pointer].size() : 0;
     const size_t index = value.get<size_t>();
@@ -209,19 +208,19 @@ void Mender::mendIndex(Json& value, const std::string& path, const char* target)
         throw LeftOut();
 }
 
-void Mender::mendMap(Json& value, const std::string& path, const Field& field)
+void Repairer::repairMap(Json& value, const std::string& path, const Field& field)
 {
     at(value, path).requireObject();
     for (const auto& entry : value.items()) {
         const std::string entryPath = path + "." + entry.key();
         if (field.kind == Kind::IntegerMap)
-            mendInteger(entry.value(), entryPath, field.range);
+            repairInteger(entry.value(), entryPath, field.range);
         else
-            mendIndex(entry.value(), entryPath, field.target);
+            repairIndex(entry.value(), entryPath, field.target);
     }
 }
 
-void Mender::mendNumber(Json& value, const std::string& path, const Field& field)
+void Repairer::repairNumber(Json& value, const std::string& path, const Field& field)
 {
     const NumberRange& range = field.range;
     if (field.clamps && value.is_number() && !range.contains(value.get<double>())) {
@@ -239,7 +238,7 @@ void Mender::mendNumber(Json& value, const std::string& path, const Field& field
     at(value, path).number(range);
 }
 
-void Mender::mendList(Json& value, const std::string& path, const Field& field)
+void Repairer::repairList(Json& value, const std::string& path, const Field& field)
 {
     at(value, path).requireArray();
     if (field.kind == Kind::Numbers &&
@@ -254,9 +253,9 @@ void Mender::mendList(Json& value, const std::string& path, const Field& field)
     for (size_t i = 0; i < value.size(); ++i) {
         const std::string itemPath = path + "[" + std::to_string(i) + "]";
         if (field.kind == Kind::Numbers) {
-            mendNumber(value[i], itemPath, field);
+            repairNumber(value[i], itemPath, field);
         } else if (field.kind == Kind::IndexMaps) {
-            mendMap(value[i], itemPath, field);
+            repairMap(value[i], itemPath, field);
         } else if (field.kind == Kind::Objects) {
             if (keeps(value[i], itemPath, item))
                 kept.push_back(value[i]);
@@ -274,13 +273,13 @@ void Mender::mendList(Json& value, const std::string& path, const Field& field)
         value = std::move(kept);
 }
 
-void Mender::mendValue(Json& value, const std::string& path, const Field& field)
+void Repairer::repairValue(Json& value, const std::string& path, const Field& field)
 {
     switch (field.kind) {
     case Kind::Integer:
-        return mendInteger(value, path, field.range);
+        return repairInteger(value, path, field.range);
     case Kind::Number:
-        return mendNumber(value, path, field);
+        return repairNumber(value, path, field);
     case Kind::Boolean:
         at(value, path).boolean();
         return;
@@ -288,21 +287,21 @@ void Mender::mendValue(Json& value, const std::string& path, const Field& field)
         at(value, path).string();
         return;
     case Kind::Index:
-        return mendIndex(value, path, field.target);
+        return repairIndex(value, path, field.target);
     case Kind::Object:
-        return mendObject(value, path, field.fields);
+        return repairObject(value, path, field.fields);
     case Kind::IndexMap:
     case Kind::IntegerMap:
-        return mendMap(value, path, field);
+        return repairMap(value, path, field);
     default:
-        return mendList(value, path, field);
+        return repairList(value, path, field);
     }
 }
 
-bool Mender::keeps(Json& value, const std::string& path, const Field& field)
+bool Repairer::keeps(Json& value, const std::string& path, const Field& field)
 {
     try {
-        mendValue(value, path, field);
+        repairValue(value, path, field);
         return true;
     } catch (const LeftOut&) {
         if (!field.instead)
@@ -318,7 +317,7 @@ bool Mender::keeps(Json& value, const std::string& path, const Field& field)
     return false;
 }
 
-void Mender::mendObject(Json& value, const std::string& path, std::span<const Field> fields)
+void Repairer::repairObject(Json& value, const std::string& path, std::span<const Field> fields)
 {
     at(value, path).requireObject();
     for (const Field& field : fields) {
@@ -346,7 +345,7 @@ void Mender::mendObject(Json& value, const std::string& path, std::span<const Fi
     }
 }
 
-void Mender::mendElement(const schema::Array& array, Json& element, size_t index)
+void Repairer::repairElement(const schema::Array& array, Json& element, size_t index)
 {
     const std::string path = gltfElement(array.path, index);
     const bool isUsed = used_[array.pointer].contains(index);
@@ -355,8 +354,8 @@ void Mender::mendElement(const schema::Array& array, Json& element, size_t index
         element.value("type", Json()) != "spot")
         element.erase("spot");
     try {
-        mendObject(element, path, array.fields);
-        mendBySpecialRules(array, element, path);
+        repairObject(element, path, array.fields);
+        repairBySpecialRules(array, element, path);
         return;
     } catch (const LeftOut&) {
         if (isUsed && !array.instead)
@@ -374,7 +373,7 @@ void Mender::mendElement(const schema::Array& array, Json& element, size_t index
     leftOut_.emplace(array.pointer, index);
 }
 
-void Mender::mendArray(const schema::Array& array)
+void Repairer::repairArray(const schema::Array& array)
 {
     const Json::json_pointer pointer(array.pointer);
     if (!document_.contains(pointer))
@@ -387,14 +386,14 @@ void Mender::mendArray(const schema::Array& array)
     }
     at(list, array.path).requireArray();
     for (size_t i = 0; i < list.size(); ++i)
-        mendElement(array, list[i], i);
+        repairElement(array, list[i], i);
 }
 
-GltfUse Mender::mend()
+GltfUse Repairer::repair()
 {
     at(document_, "").requireObject();
-    mendVersion();
-    mendObject(document_, "", schema::root);
+    repairVersion();
+    repairObject(document_, "", schema::root);
     if (const auto names = document_.find("extensionsUsed"); names != document_.end())
         std::erase_if(names->get_ref<Json::array_t&>(), [&](const Json& name) {
             if (!name.is_string())
@@ -403,7 +402,7 @@ GltfUse Mender::mend()
             return !name.is_string();
         });
     for (const schema::Array& array : schema::arrays)
-        mendArray(array);
+        repairArray(array);
     if (const auto animations = document_.find("animations");
         animations != document_.end() && !animations->empty())
         warnings_.add("",
@@ -415,8 +414,8 @@ GltfUse Mender::mend()
 
 // Checks that owner[key], if it is there, is one of these values. A wrong one is removed if
 // `instead` says what is used then.
-void Mender::mendChoice(Json& owner, const std::string& path, const char* key, const char* instead,
-                        std::initializer_list<Json> allowed)
+void Repairer::repairChoice(Json& owner, const std::string& path, const char* key,
+                            const char* instead, std::initializer_list<Json> allowed)
 {
     const auto found = owner.find(key);
     if (found == owner.end() || std::find(allowed.begin(), allowed.end(), *found) != allowed.end())
@@ -435,7 +434,7 @@ void Mender::mendChoice(Json& owner, const std::string& path, const char* key, c
     owner.erase(key);
 }
 
-void Mender::mendBufferView(Json& view, const std::string& path)
+void Repairer::repairBufferView(Json& view, const std::string& path)
 {
     if (const auto stride = view.find("byteStride"); stride != view.end())
         if (stride->get<int64_t>() % 4 != 0)
@@ -444,15 +443,16 @@ void Mender::mendBufferView(Json& view, const std::string& path)
         if (view.contains("extensions") && view["extensions"].contains(name)) {
             const std::string extension = path + ".extensions." + name;
             Json& meshopt = view["extensions"][name];
-            mendChoice(meshopt, extension, "mode", nullptr, {"ATTRIBUTES", "TRIANGLES", "INDICES"});
-            mendChoice(meshopt, extension, "filter", nullptr,
-                       {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"});
+            repairChoice(meshopt, extension, "mode", nullptr,
+                         {"ATTRIBUTES", "TRIANGLES", "INDICES"});
+            repairChoice(meshopt, extension, "filter", nullptr,
+                         {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"});
         }
 }
 
-void Mender::mendLight(Json& light, const std::string& path)
+void Repairer::repairLight(Json& light, const std::string& path)
 {
-    mendChoice(light, path, "type", nullptr, {"directional", "point", "spot"});
+    repairChoice(light, path, "type", nullptr, {"directional", "point", "spot"});
     if (light["type"] == "spot" && !light.contains("spot")) {
         warnings_.add(path,
                       "is a spot without \"spot\"; its cone has the default angles 0 and pi/4");
@@ -460,31 +460,32 @@ void Mender::mendLight(Json& light, const std::string& path)
     }
 }
 
-void Mender::mendBySpecialRules(const schema::Array& array, Json& element, const std::string& path)
+void Repairer::repairBySpecialRules(const schema::Array& array, Json& element,
+                                    const std::string& path)
 {
     const std::string_view kind = array.path;
     if (kind == "accessors") {
-        mendChoice(element, path, "type", nullptr,
-                   {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"});
+        repairChoice(element, path, "type", nullptr,
+                     {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"});
         if (element["componentType"] == 5124)
             at(element, path + ".componentType")
                 .fail("is 5124, which is not a component type of glTF 2.0");
     } else if (kind == "bufferViews") {
-        mendBufferView(element, path);
+        repairBufferView(element, path);
     } else if (kind == "samplers") {
         for (const char* wrap : {"wrapS", "wrapT"})
-            mendChoice(element, path, wrap, "10497 (repeat) is used", {33071, 33648, 10497});
+            repairChoice(element, path, wrap, "10497 (repeat) is used", {33071, 33648, 10497});
     } else if (kind == "materials") {
-        mendChoice(element, path, "alphaMode", "OPAQUE is used", {"OPAQUE", "MASK", "BLEND"});
+        repairChoice(element, path, "alphaMode", "OPAQUE is used", {"OPAQUE", "MASK", "BLEND"});
     } else if (kind == "cameras") {
-        mendChoice(element, path, "type", nullptr, {"perspective", "orthographic"});
+        repairChoice(element, path, "type", nullptr, {"perspective", "orthographic"});
         at(element, path).member(element["type"].get<std::string>());
     } else if (kind == "extensions.KHR_lights_punctual.lights") {
-        mendLight(element, path);
+        repairLight(element, path);
     }
 }
 
-void Mender::mendVersion()
+void Repairer::repairVersion()
 {
     const JsonValue asset = at(document_, "").member("asset");
     for (const char* name : {"version", "minVersion"})
@@ -508,11 +509,11 @@ void Mender::mendVersion()
 
 } // namespace
 
-void mendGltfJson(GltfDocument& document)
+void repairGltfJson(GltfDocument& document)
 {
-    Mender mender(document.file, document.json, document.warnings);
-    document.used = mender.mend();
-    document.lostMesh = mender.lostMesh();
+    Repairer repairer(document.file, document.json, document.warnings);
+    document.used = repairer.repair();
+    document.lostMesh = repairer.lostMesh();
 }
 
 } // namespace candelabra::app

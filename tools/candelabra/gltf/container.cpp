@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens a glTF file: takes .glb chunks apart, resolves URIs, loads buffers and calls tinygltf.
+// Opens a glTF file: splits .glb chunks, resolves URIs, loads buffers and calls tinygltf.
 #include "gltf/document.h"
 
 #include <algorithm>
@@ -22,8 +22,8 @@ uint32_t readLittleEndian32(const uint8_t* p)
     return uint32_t{p[0]} | uint32_t{p[1]} << 8 | uint32_t{p[2]} << 16 | uint32_t{p[3]} << 24;
 }
 
-// Takes the chunks of a binary glTF file apart: a header of 12 bytes is followed by chunks of {
-// length, type, data } (glTF 2.0, section 4.4).
+// Splits a binary glTF file into chunks. Chunks of { length, type, data } follow a header of 12
+// bytes (glTF 2.0, section 4.4).
 GltfContainer splitBinary(const std::string& path, const std::vector<uint8_t>& bytes)
 {
     constexpr uint32_t jsonChunk = 0x4E4F534A, binaryChunk = 0x004E4942;

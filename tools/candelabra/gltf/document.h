@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An opened glTF 2.0 file: its container is taken apart, its JSON is checked and parsed by
+// An opened glTF 2.0 file: its container is split, its JSON is checked and parsed by
 // tinygltf, and its buffers are in memory. Internal to the glTF loader. All functions throw
 // SceneError.
 #pragma once
@@ -32,7 +32,7 @@ using GltfUse = std::map<std::string, std::set<size_t>, std::less<>>;
 
 struct GltfDocument {
     std::string file; // the path as the user gave it; messages name it
-    // The JSON, mended: every property that the loader reads has the right type, range and index.
+    // The repaired JSON: every property that the loader reads has the right type, range and index.
     nlohmann::json json;
     GltfUse used;
     // What tinygltf made of it, without buffers and images, which the loader reads itself.

@@ -20,18 +20,18 @@ namespace candelabra::app
 struct GltfPose {
     static constexpr int64_t ofMesh = -1;
 
-    // The node that has the pose, or ofMesh: then all nodes without a pose of their own share it.
+    // The node that has the pose, or ofMesh if all nodes without their own pose share it.
     int64_t owner = ofMesh;
     std::vector<double> weights; // of the morph targets; those beyond the list are 0
-    // Where the posed mesh stands: the transform of its node. That of a node with a skin moves
-    // nothing (glTF 2.0, section 3.7.3.3): there it is a translation to the skin's first joint, so
-    // that positions keep their digits far from the origin.
+    // The transform of the mesh's node. glTF ignores it for a node with a skin (glTF 2.0, section
+    // 3.7.3.3). There this is a translation to the skin's first joint, so that positions keep their
+    // digits far from the origin.
     glm::dmat4 worldFromMesh{1};
     std::string skin; // its name in messages
     // For each joint of the skin, the transform from the mesh as it is in the file to the posed
     // mesh. Empty without a skin.
     std::vector<glm::dmat4> meshFromBind;
-    // With a skin, the same for primitives that no joint moves: they stand where the node is.
+    // With a skin, the same for primitives that no joint moves, which the node's transform places.
     glm::dmat4 meshFromRest{1};
 };
 

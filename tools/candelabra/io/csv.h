@@ -15,7 +15,7 @@ struct CsvFile {
     std::vector<std::map<std::string, std::string>> rows; // cells by the names of their columns
 };
 // Throws RunError if the file cannot be read, or if a row has more or fewer cells than there are
-// columns. A cell may stand in quotes, but may not have a quote or a line break in it.
+// columns. A cell may be in quotes, but may not have a quote or a line break in it.
 CsvFile readCsv(const std::filesystem::path& path);
 
 } // namespace candelabra::app

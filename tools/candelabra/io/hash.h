@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A hash that tells apart contents that differ by accident. It is no protection against contents
-// that someone chose to have the same hash. std::hash is not used, because hashes are stored in
+// A hash that distinguishes contents that differ by accident. It does not protect against contents
+// that were chosen to have the same hash. std::hash is not used, because hashes are stored in
 // files and it may differ between standard libraries.
 #pragma once
 

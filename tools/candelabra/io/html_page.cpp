@@ -79,7 +79,7 @@ summary { cursor: pointer; font-size: 13px; color: var(--link); margin-bottom: 0
 )";
 
 // The script holds neither < nor an ampersand, because the page is XML as well. Without it the
-// pictures of a wipe stand side by side, and what is folded is not printed.
+// pictures of a wipe are side by side, and what is folded is not printed.
 constexpr const char* script = R"(
 for (const w of document.querySelectorAll('.wipe')) {
   const [left, right] = w.querySelectorAll('select');

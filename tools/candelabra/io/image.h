@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads and writes image files. Floating-point images hold linear values, which no function here
-// changes but as the header of a file asks for. Every file is written under a temporary name beside
-// its final one and renamed when it is complete, so that nobody sees an incomplete file. All
-// functions throw ImageError with one sentence that names the file.
+// Reads and writes image files. Floating-point images hold linear values. The functions change
+// them only as the header of a file demands. Every file is written under a temporary name beside
+// its final one and renamed when it is complete, so no one sees an incomplete file. All functions
+// throw ImageError with one sentence that names the file.
 #pragma once
 
 #include <cstdint>

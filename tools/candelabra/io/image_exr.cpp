@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads and writes OpenEXR images block by block of rows, with OpenEXRCore, the C part of OpenEXR.
-// The C++ classes of OpenEXR 3.1 are not used, because they trust files too much: they return
-// memory that nobody wrote where a block decompresses to fewer bytes than it should, and an
-// attribute of the header gets whatever memory it claims to need.
+// The C++ classes of OpenEXR 3.1 are not used, because they trust files too much. They return
+// uninitialised memory where a block decompresses to fewer bytes than it should, and allocate
+// whatever memory an attribute of the header claims to need.
 #include "io/image.h"
 
 #include <algorithm>

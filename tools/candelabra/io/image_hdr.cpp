@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads Radiance HDR files (Ward 1991, "Real pixels"). stb_image is not used because it reads zeros
-// beyond the end of a file that is cut short: it gives pixels that nobody wrote, and loops for ever
-// if the file ends inside a run.
+// beyond the end of a truncated file. It then returns pixels that are not in the file, and loops
+// for ever if the file ends inside a run.
 #include <algorithm>
 #include <charconv>
 #include <cmath>

@@ -7,7 +7,8 @@
 namespace candelabra::app
 {
 
-// Replaces & < > and " by entities, so that `text` can stand between tags and in quoted attributes.
+// Replaces & < > and " by entities, so that `text` can be put between tags and in quoted
+// attributes.
 std::string escaped(const std::string& text);
 
 } // namespace candelabra::app

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Progress: shows on stderr how much of a long job is done. On a terminal it is one line that is
 // drawn again and again. In a file or a pipe it is a new line every few seconds, so that a log
-// shows that the work goes on.
+// shows that the work continues.
 #pragma once
 
 #include <chrono>

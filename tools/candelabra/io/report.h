@@ -24,7 +24,7 @@ void writeJson(const std::string& path, const Json& json);
 void requireWritable(const std::string& option, const std::string& path);
 
 // The command line as text, such as "candelabra render hall", with quotes where a shell needs them.
-// `program` is the name that stands in for argv[0].
+// `program` is the name that replaces argv[0].
 std::string commandLine(int argc, const char* const* argv,
                         const std::string& program = "candelabra");
 

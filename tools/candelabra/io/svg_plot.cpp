@@ -17,7 +17,7 @@ namespace
 // Size of the drawing and of its margins in pixels. The right margin holds the labels of the lines.
 constexpr double width = 960, height = 600, left = 84, right = 220, top = 76, bottom = 66;
 
-// Colours that people with any kind of colour vision can tell apart (Okabe and Ito 2008, with a
+// Colours that people with any kind of colour vision can distinguish (Okabe and Ito 2008, with a
 // brown for their yellow); black is the last.
 constexpr std::array<const char*, 8> colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                              "#e69f00", "#56b4e9", "#8a6d3b", "#000000"};

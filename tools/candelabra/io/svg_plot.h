@@ -22,8 +22,8 @@ struct PlotText {
     std::string title, subtitle, xAxis, yAxis; // the axes' names contain the unit
 };
 
-// A complete SVG document. Series are told apart by colour, marker shape and a label at the end of
-// the line. If no point can be drawn, the plot says so.
+// A complete SVG document. Series differ by colour, marker shape and a label at the end of the
+// line. If no point can be drawn, the plot says so.
 std::string logLogPlot(const PlotText& text, const std::vector<PlotSeries>& series);
 
 } // namespace candelabra::app

@@ -18,7 +18,7 @@ struct Column {
     // A column of words, which is aligned to the left, as the first column always is.
     static Column words(const char* name, std::string about);
 
-    // The name and the unit, as they stand above the column in text.
+    // The name and the unit, as printed above the column in text.
     std::string head() const;
 
     std::string name, unit;

@@ -22,7 +22,7 @@ constexpr double objectFov = 0.66;    // rad (38 degrees): little perspective di
 constexpr double roomFov = 1.05;      // rad (60 degrees)
 constexpr double threeQuarter = 0.61; // rad (35 degrees) to the right of the front
 
-// Returns the direction from a camera to what it looks at. The camera stands `azimuth` radians to
+// Returns the direction from a camera to what it looks at. The camera is `azimuth` radians to
 // the right of the front, which is +z, and `elevation` radians above the horizon.
 glm::dvec3 towards(double azimuth, double elevation)
 {
@@ -242,7 +242,7 @@ void addRoomCameras(Scene& scene, double aspect)
 // --- cameras of files
 
 // Makes the first automatic camera the default if none of the `own` cameras of the file shows the
-// scene large enough. Many files have cameras that nobody looked through.
+// scene large enough. Many files have cameras that their makers never looked through.
 void chooseDefaultCamera(Scene& scene, size_t own, double aspect)
 {
     if (own == 0)

@@ -115,7 +115,7 @@ public:
     explicit Glow(const Scene& scene) : scene_(scene), means_(scene.textures.size()) {}
 
     // Returns the mean luminance of what a material emits, in cd/m^2 and at most 1: a brighter glow
-    // is no easier to see. All parts of its texture count alike, whatever part surfaces show.
+    // is no easier to see. All parts of its texture count equally, whichever part surfaces show.
     double of(const Material& material);
 
 private:

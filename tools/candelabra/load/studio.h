@@ -18,9 +18,9 @@ SceneEnvironment studioEnvironment(const Camera& defaultCamera, float white);
 // Returns the luminance in cd/m^2 that white surfaces in the studio have, so that the scene's own
 // emission looks right beside them: that of white in unlit materials if there are any and their
 // surfaces are at least as large as those that glow, else 1, the luminance of an emissive factor of
-// 1 in glTF. Beside unlit surfaces a glow looks black, so a surface that glows at less than 1
-// cd/m^2 counts with so much less of its area. Beside a glow all that is unlit looks white,
-// whatever its colour, so unlit surfaces count with all of theirs.
+// 1 in glTF. Beside unlit surfaces a glow looks black, so the area of a surface that glows at
+// less than 1 cd/m^2 counts in proportion to that luminance. Beside a glow everything unlit looks
+// white, whatever its colour, so unlit surfaces count with their whole area.
 float studioWhite(const Scene& scene);
 
 // Returns the EV100 that a grey card has in the studio where it gets most light, facing the key

@@ -18,8 +18,8 @@ class PipelineWatch
 {
 public:
     // While this object exists, `before` is called before each pipeline that the engine creates on
-    // this thread, with the number of all that have been announced; 0: none have. If it returns
-    // false, the pipeline is not created, and the engine fails.
+    // this thread. `announced` is the number of pipelines that have been announced, or 0 if none
+    // have. If `before` returns false, the pipeline is not created, and the engine fails.
     explicit PipelineWatch(std::function<bool(uint32_t announced)> before);
     ~PipelineWatch();
     PipelineWatch(const PipelineWatch&) = delete;

@@ -41,8 +41,8 @@ struct RendererOptions {
     std::optional<uint32_t> lightTypes;
 };
 
-// What a frame takes over from the frame before if nothing has changed. The image is the same, but
-// the GPU time is not, so whoever measures times chooses explicitly.
+// What a frame reuses of the previous frame if nothing has changed. The image is the same, but
+// the GPU time is not, so callers that measure times choose explicitly.
 enum class Reuse {
     None,    // nothing: every frame does all the work
     Lists,   // the prepared lights, clusters and lists, if camera and lights have not changed
@@ -55,9 +55,9 @@ bool operator==(const CndExposureSettings& a, const CndExposureSettings& b);
 
 struct FrameOptions {
     Camera camera;
-    // The samples of a frame are recorded one after the other. Each is lit anew: with several,
-    // Reuse::Lighting reuses nothing. The display image stays as it was before until the last one,
-    // after which it and the radiance are the means of all.
+    // The samples of a frame are recorded one after the other. Each is lit separately, so with
+    // several, Reuse::Lighting reuses nothing. The display image keeps its earlier content until
+    // the last sample. After that, it and the radiance are the means of all samples.
     FrameSample sample;
     double time = 0;           // s; decides where moving lights are
     float deltaTime = 0;       // s since the previous frame, for the adaptation of exposure

@@ -10,7 +10,7 @@ namespace candelabra::app
 namespace
 {
 
-// With more vertices than this, all instances together, the corners of bounds stand for them.
+// With more vertices than this, all instances together, the corners of bounds represent them.
 constexpr size_t mostVertices = 4'000'000;
 
 // Positions of the vertices that triangles use. Files may hold others, anywhere.

@@ -36,7 +36,7 @@ std::string describeValue(const nlohmann::json& value)
 
 std::string NumberRange::text(double x) const
 {
-    // Only the bound that was missed is named if the other is so large that nobody would exceed it.
+    // Names only the exceeded bound if the other is so large that no one would exceed it.
     constexpr double distracting = 1e9;
     const bool isLow = minExcluded ? x <= min : x < min;
     if (isLow && max >= distracting)

@@ -28,8 +28,8 @@ FlyCamera::FlyCamera(const Camera& camera, double speed)
 {
     const glm::dvec3 f = glm::normalize(camera.forward);
     pitch_ = std::clamp(std::asin(std::clamp(f.y, -1.0, 1.0)), -pitchLimit, pitchLimit);
-    // A camera that looks straight up or down has no heading of its own: its up vector, which is
-    // the top of the image, gives the yaw.
+    // The direction of a camera that looks straight up or down has no heading. Its up vector, the
+    // top of the image, gives the yaw.
     const glm::dvec3 level = std::abs(f.y) < 0.9999 ? f : camera.up * (f.y > 0 ? -1.0 : 1.0);
     yaw_ = std::atan2(-level.x, -level.z);
 }

@@ -26,8 +26,8 @@ public:
     // Only so many of the last steps can be undone.
     static constexpr size_t mostSteps = 1000;
 
-    // The next edit begins a step of its own. Changes of one light without this call between them
-    // are one step: the user drags a slider, or holds a key.
+    // The next edit begins a new step. Changes of one light without this call between them are one
+    // step, as when the user drags a slider or holds a key.
     void beginStep() { open_ = false; }
     // Remembers an edit that has been made, and forgets what was undone.
     void add(const LightEdit& edit);

@@ -35,11 +35,11 @@ public:
     // `slots`: frames in flight.
     explicit StillPicture(uint32_t slots) : drawnIn_(slots) {}
 
-    // Call it before each frame. The picture begins anew if the settings differ from those of the
-    // frame before. What does not decide the lit image or its exposure (sample, noise, time step,
-    // and the time if no light moves) must be the same in all calls.
+    // Call it before each frame. The picture begins again if the settings differ from those of the
+    // previous frame. Settings that affect neither the lit image nor its exposure (sample, noise,
+    // time step, and the time if no light moves) must be the same in all calls.
     void show(const PictureSettings& settings);
-    // Begins anew, because lights, surfaces or the size have changed.
+    // Begins again, because lights, surfaces or the size have changed.
     void change();
     // Tells by how many EV the exposure of the last frame of a slot, which has finished, differs
     // from its target: the larger difference of both sides of a wipe.

@@ -21,8 +21,8 @@ public:
     Swapchain(const Swapchain&) = delete;
     Swapchain& operator=(const Swapchain&) = delete;
 
-    // Creates the images anew for the window's present size, which must not be 0x0. Waits for the
-    // GPU.
+    // Creates the images again for the current size of the window, which must not be 0x0. Waits for
+    // the GPU.
     void recreate();
 
     struct Target {

@@ -375,7 +375,8 @@ void Viewer::drawFrame(double seconds, bool screenshot)
     panel_.frame.camera = camera_.camera();
     overlay_.begin();
     drawOverlay();
-    // To move lights sets them anew, and with them edits, whose pipelines may not have been made.
+    // Moving lights uploads all lights, including edited ones, whose pipelines may be missing. So
+    // lights do not move while there are edits.
     if (!lightsEdited_ && !panel_.editor.changed)
         panel_.frame.time = time_;
     if (loader_.busy())

@@ -202,20 +202,19 @@ private:
     uint32_t loadingLights_ = 0;
     Kept loadingKept_ = Kept::Nothing;
     Shading loadingShading_;
-    // How the two sides are shaded now. This differs from what the user wants while pipelines for
-    // that are being made.
+    // How the two sides are shaded now. While pipelines for the user's choice are being made, this
+    // differs from that choice.
     Shading shownLeft_, shownRight_;
     bool lightsEdited_ = false; // the renderers do not know yet how the user has edited the lights
-    // Nothing that the user has asked for is still being made, so the frame is as the user wants
-    // it.
+    // Everything that the user asked for has been made, so the frame shows it.
     bool prepared_ = false;
     bool resetExposure_ = true;      // the next frame jumps to the converged exposure
     double time_ = 0;                // seconds, for moving lights
     double mouseX_ = 0, mouseY_ = 0; // window coordinates
     std::set<int> heldKeys_;         // keys of the scene, not of a field of the panel
     std::set<int> freshKeys_;        // those that were pressed since the last frame
-    // A drag that began on the scene goes on: the button, how far the mouse went in all, and since
-    // the last frame, in window coordinates.
+    // A drag that began on the scene and has not ended: the button, and how far the mouse has moved
+    // in all and since the last frame, in window coordinates.
     std::optional<int> dragButton_;
     double dragged_ = 0;
     glm::dvec2 look_{0};

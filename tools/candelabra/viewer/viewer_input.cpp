@@ -615,7 +615,7 @@ void Viewer::onDrop(const std::string& path)
     const auto ends = [&](const char* extension) { return path.ends_with(extension); };
     if (ends(".hdr") || ends(".exr") || ends(".pfm")) {
         options.environment = path;
-        // If a scene is being loaded, it gets the environment, and is loaded anew.
+        // If a scene is being loaded, it gets the environment, and loading starts again.
         return open(wantedScene_, options, loader_.busy() ? loadingKept_ : Kept::CameraAndLights);
     }
     options.lights.reset();

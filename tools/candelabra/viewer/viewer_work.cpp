@@ -168,7 +168,7 @@ void Viewer::makeRenderer(Side side)
     });
 }
 
-// Uses what the other thread has made. If it has failed, the viewer says so and goes on without.
+// Uses the result of the other thread. If that failed, the viewer says so and continues without it.
 void Viewer::takeWork()
 {
     const bool unwanted = work_.stopped();
@@ -194,7 +194,7 @@ void Viewer::takeBackLights()
     lightsEdited_ = false; // what was undone is an edit as well, which the next frame notes
 }
 
-// Lets a renderer that was made take its place, or lets the other thread go on with it.
+// Installs a renderer that is complete, or lets the other thread continue with one that is not.
 void Viewer::useMade()
 {
     std::unique_ptr<Renderer> made = std::move(made_);

@@ -70,7 +70,7 @@ public:
     void wait();
     // The same, but no longer than for so many seconds.
     void wait(double seconds);
-    std::deque<InputEvent> events; // the oldest first; whoever handles an event removes it
+    std::deque<InputEvent> events; // the oldest first; the code that handles an event removes it
 
 private:
     GLFWwindow* window_ = nullptr;

@@ -28,7 +28,8 @@ struct ImageLevelSettings {
     uint32_t sampleCount = 16; // samples per light of the sampled method
 };
 
-// GPU times, medians over the rounds. A rival has no lists, so that its only time is bruteForceMs.
+// GPU times, medians over the rounds. A competing method has no lists, so its only time is
+// bruteForceMs.
 struct FrameTime {
     double lightingMs = 0; // all passes of the lighting module
     double shadingMs = 0;  // the passes that evaluate lights

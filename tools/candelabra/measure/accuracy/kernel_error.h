@@ -41,8 +41,8 @@ struct ErrorParts {
 
 struct KernelError {
     HorizonStatistics mirror; // F = 1
-    // The mean of `mirror.all` of each group that has such samples. Samples of one group are alike,
-    // so an interval of the error is one over groups.
+    // The mean of `mirror.all` of each group that has such samples. Samples of one group are
+    // similar, so an interval of the error is one over groups.
     std::vector<double> groupMeans;
     HorizonStatistics dielectric; // F0 = 0.04
     HorizonStatistics diffuse;    // errors of the form factor
@@ -52,7 +52,7 @@ struct KernelError {
     // response of its group.
     double leak = 0;
     size_t invalid = 0; // responses that are NaN, infinite or negative, which no statistic includes
-    std::optional<ErrorParts> parts; // rivals have none
+    std::optional<ErrorParts> parts; // competing methods have none
 };
 
 // `responses` holds the shader's response to every sample of the set; `inDouble` is empty, or holds

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws a frame of a scene by linearly transformed cosines, a rival of the engine's closed forms:
-// its area lights are evaluated by the functions of shaders/bench/ltc, every light at every pixel.
+// Draws a frame of a scene by linearly transformed cosines, which compete with the engine's closed
+// forms. The functions of shaders/bench/ltc evaluate every area light at every pixel.
 #pragma once
 
 #include <vector>

@@ -39,7 +39,7 @@ constexpr uint32_t samplesPerGroup = 26 + 14 + 49;
 // Factors of lights that are smaller or thinner than those of the usual set.
 struct LightScale {
     double size = 1;      // of every length
-    double thickness = 1; // of the shorter side, or of a body's radius, besides
+    double thickness = 1; // in addition, of the shorter side or of a body's radius
 };
 
 // A group is one roughness (perceptual, stratified on [0.045, 1]), one view angle (uniform 0 to

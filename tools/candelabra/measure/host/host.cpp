@@ -35,8 +35,8 @@ double millisecondsSince(Clock::time_point start)
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-// A lighting module of its own for the lights of a scene. The surfaces that its frames light are
-// few, because the GPU's time does not matter.
+// A separate lighting module for the lights of a scene. Its frames light few surfaces, because the
+// GPU's time does not matter.
 class HostStage
 {
 public:

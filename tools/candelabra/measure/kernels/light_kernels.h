@@ -65,7 +65,7 @@ private:
     bool isRival_;
     gpu::Kernel<gpu::BenchParams> kernel_;
     gpu::Bindings bindings_;
-    gpu::Buffer ltcTable_; // read by rivals
+    gpu::Buffer ltcTable_; // read by linearly transformed cosines
 };
 
 // The table of shared/ltc.h, for BENCH_LTC.

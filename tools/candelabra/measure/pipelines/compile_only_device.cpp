@@ -26,7 +26,7 @@ bool hasNeeded(VkPhysicalDevice device)
     });
 }
 
-// The devices, where `missing` says what each lacks for compiling. What drawing needs besides does
+// The devices, where `missing` says what each lacks for compiling. Further needs of drawing do
 // not matter here.
 std::vector<DeviceInfo> compilingDevices(const VulkanInstance& instance)
 {
@@ -221,7 +221,7 @@ struct CompileOnlyDevice::Functions {
                        out);
     }
 
-    // Returns the function that stands in for Vulkan's, or null if the engine may call that.
+    // Returns the function that replaces Vulkan's, or null if the engine may call Vulkan's.
     static PFN_vkVoidFunction find(const char* name)
     {
         const std::pair<const char*, void*> all[] = {

@@ -14,7 +14,7 @@ namespace candelabra::app
 struct ReportSection {
     std::string id, title; // `id` is unique on the page
     std::string intro;     // a few sentences: what is measured, and how to read it
-    std::string html;      // pictures and plots, which stand before the tables
+    std::string html;      // pictures and plots, which come before the tables
     std::vector<Table> tables;
     std::string command;             // with which the section can be made again; may be empty
     std::vector<Table> details = {}; // long tables, which are shown on a click

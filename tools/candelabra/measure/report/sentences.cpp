@@ -67,7 +67,7 @@ const KernelPoint* find(const KernelLevel& level, uint32_t type, const MeasuredM
 }
 
 // What the table of errors has: the mean over all directions, with the margin within which it lies
-// with 95% confidence if the means of groups of alike samples are normally distributed.
+// with 95% confidence if the means of groups of similar samples are normally distributed.
 std::string meanPercent(const KernelError& error)
 {
     const std::vector<double>& means = error.groupMeans;
