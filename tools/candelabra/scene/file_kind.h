@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Says what a file is that somebody takes for a scene.
+// Identifies files that were given as scenes but are something else.
 #pragma once
 
 #include <string>

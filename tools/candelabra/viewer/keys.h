@@ -155,8 +155,8 @@ inline constexpr const char* fieldHelp =
     "to that field until Enter, Tab,\n"
     "Esc or a click on the scene. F1, F2 and F5 always work.";
 
-// Returns what a key does with these modifiers (GLFW_MOD_*), or null. Shift alone does not matter
-// unless the table says so, because it makes the camera fly fast.
+// Returns what a key does with these modifiers (GLFW_MOD_*), or null. Shift makes the camera fly
+// fast, so it is ignored if the table has the key only without it.
 inline const KeyBinding* findBinding(int key, int modifiers)
 {
     constexpr int all = GLFW_MOD_SHIFT | GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER;

@@ -197,8 +197,9 @@ private:
     // Slots in which the present renderer has recorded a frame at its present size: their
     // statistics can be read.
     std::array<bool, Screen::slotCount> recorded_{};
-    // About the scene that is loaded now: PanelState::wantedLights if it is rebuilt with so many
-    // (Kept::Camera), what stays of the present one, and how its renderer can shade.
+    // About the scene that is being loaded: PanelState::wantedLights if it is the present scene
+    // with another number of lights (Kept::Camera), what stays of the present scene, and how the
+    // new renderer can shade.
     uint32_t loadingLights_ = 0;
     Kept loadingKept_ = Kept::Nothing;
     Shading loadingShading_;
