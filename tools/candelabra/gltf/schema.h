@@ -38,9 +38,9 @@ struct Field {
     size_t minItems = 0, maxItems = 0;
     const char* target = nullptr; // JSON pointer of the array that an index points into
     std::span<const Field> fields = {};
-    // Says what is used instead of a value that is wrong. The member is then removed, or of Indices
-    // the item. Of Objects it says what is used instead of an item that is wrong. nullptr: the
-    // object that has the member is wrong.
+    // The words of the warning that say what is used instead of a wrong value, which is removed:
+    // the member, or the wrong items of Indices and Objects. nullptr: a wrong value makes the
+    // object that has the member wrong.
     const char* instead = nullptr;
     // Numbers beyond an end of their range are replaced by that end.
     bool clamps = false;
