@@ -70,8 +70,8 @@ void drawWall(Host* host);
 // Submits the command buffer and waits until it has finished.
 void endFrame(Host* host);
 
-// How an image is used at some point: its layout, and the stage and access that a barrier waits for
-// or makes visible.
+// A use of an image: its layout, and the stage and access that a barrier waits for or makes
+// visible.
 typedef struct ImageUse {
     VkImageLayout layout;
     VkPipelineStageFlags2 stage;

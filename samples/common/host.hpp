@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the samples in C++ share beyond host.h: Candelabra's errors end the program, uses of images,
-// and pipelines and passes of the samples' own.
+// The samples in C++ share this in addition to host.h: Candelabra's errors end the program, uses of
+// images, and pipelines and passes of the samples' own.
 #pragma once
 
 #include <cstdio>

@@ -112,8 +112,8 @@ static double wallLuminance(const CndLight& light, double x, double y, int chann
 
 enum class Shadow { None, Full, Edge };
 
-// How much of the spot's light the window frame takes at a point of the wall. Edges are as wide as
-// two texels of the shadow map.
+// Returns the share of the spot's light that the window frame takes at a point of the wall. Edges
+// are as wide as two texels of the shadow map.
 static Shadow shadowAt(double x, double y)
 {
     const double share = (spot.position[2] - double(frameZ)) / (spot.position[2] + WALL_DISTANCE);

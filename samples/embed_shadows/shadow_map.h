@@ -18,7 +18,7 @@ constexpr float frameZ = 0.2f; // behind the camera
 
 constexpr uint32_t shadowMapSize = 1024; // texels
 
-// What the GLSL of main.cpp reads as its uniform block.
+// The uniform block of the GLSL in main.cpp.
 struct ShadowParameters {
     float shadowFromView[16]; // clip space of the shadow map from view space
     uint32_t light;           // low half of the id of the light that the map is for

@@ -67,7 +67,7 @@ void Boxes::record(VkCommandBuffer cmd, const GBuffer& g, VkExtent2D size,
     VkRenderingAttachmentInfo attachments[3];
     for (int i = 0; i < 3; ++i) {
         imageBarrier(cmd, colours[i], overwritten, colourAttachment);
-        // What a pixel held does not matter: depth tells which pixels are drawn.
+        // The old content of pixels does not matter, because depth tells which pixels are drawn.
         attachments[i] = attachment(*colours[i], colourAttachment.layout,
                                     VK_ATTACHMENT_LOAD_OP_DONT_CARE, VK_ATTACHMENT_STORE_OP_STORE);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every fuzzer defines: a function that processes one input, and valid inputs to start from.
+// Every fuzzer defines a function that processes one input, and valid inputs to start from.
 // The function is called by libFuzzer's driver (preset fuzz) or by mutations.cpp.
 #pragma once
 

@@ -78,7 +78,7 @@ CndCamera cameraOf(const HostCase& host, uint32_t width, uint32_t height)
     return camera;
 }
 
-// What pixels without a surface hold in place of depth.
+// Returns the depth value of pixels without a surface.
 float clearOf(const HostCase& host)
 {
     switch (host.depth) {
@@ -218,8 +218,8 @@ RasterHost::~RasterHost()
     vkDestroyRenderPass(device_.handle, renderPass_, nullptr);
 }
 
-// What INTEGRATION.md says for render passes: the layouts in which the module reads the images as
-// final layouts, and the dependencies in place of barriers.
+// Follows INTEGRATION.md for render passes: the layouts in which the module reads the images are
+// final layouts, and dependencies replace barriers.
 void RasterHost::createRenderPass()
 {
     VkAttachmentDescription attachments[4];

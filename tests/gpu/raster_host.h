@@ -16,7 +16,7 @@ namespace candelabra::test
 {
 
 enum class HostPass { DynamicRendering, RenderPass };
-// What replaces depth, and the projection with which the scene is drawn.
+// The content of the depth image, and the projection with which the scene is drawn.
 enum class HostDepth {
     Reversed, // with an infinite far plane
     Standard, // 0 at the near plane, 1 at the far one
@@ -39,7 +39,7 @@ struct HostCase {
     bool native = false; // the layout CND_GBUFFER_FULL instead of the host's own
 };
 
-// What the host tells the module about its G-buffer.
+// Returns the host's description of its G-buffer for the module.
 CndGBufferDesc gbufferOf(const HostCase& host);
 // The lights of the scene, in the host's world: a sphere, a rectangle that emits from its front
 // alone, and a spot. With `turned`, the rectangle faces the other way.

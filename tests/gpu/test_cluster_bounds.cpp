@@ -23,7 +23,7 @@ namespace
 
 using gpu::divideUp;
 
-// Where the records of tiles and blocks and their clusters lie.
+// The places of the records of tiles and blocks, and of their clusters.
 struct Places {
     glm::uvec2 tiles, blocks;
     uint32_t firstSlice, firstBlock, clusters; // of clusters
@@ -40,7 +40,7 @@ struct Places {
     uint32_t blockCount() const { return blocks.x * blocks.y; }
 };
 
-// What the kernels have made.
+// The output of the kernels.
 struct Made {
     std::vector<gpu::TileClusters> tiles;
     std::vector<gpu::Cluster> clusters;
@@ -235,7 +235,7 @@ void ClusterBoundsTest::compare(const CpuGBuffer& g, float splitLength)
             << "tile or block " << i;
         if (a.lowest > a.highest)
             continue;
-        // Where the slices of a split tile lie depends on the order in which tiles run.
+        // The place of a split tile's slices depends on the order in which tiles run.
         const uint32_t count = i >= at.tileCount()       ? gpu::BLOCK_SLICES
                                : a.shift == gpu::UNSPLIT ? 1
                                                          : gpu::SLICES;

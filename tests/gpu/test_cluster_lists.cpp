@@ -31,7 +31,7 @@ struct Scene {
     std::vector<gpu::TileClusters> tile;
 };
 
-// What the kernels have made.
+// The output of the kernels.
 struct Made {
     std::vector<glm::vec4> nodes;
     std::vector<uint32_t> heads, entries;
@@ -40,7 +40,7 @@ struct Made {
     gpu::LightingCounters counters;
 };
 
-// How the lanes of a group work.
+// The way in which the lanes of a group work.
 struct Form {
     bool together;
     uint32_t lanes = gpu::CLUSTER_LISTS_GROUP; // of a group of cluster_lists
@@ -138,7 +138,7 @@ Scene randomScene(uint32_t lights, uint32_t seed, float blockLength = 0.3f)
     return s;
 }
 
-// How many lights the lists of consecutive blocks of blockScene have: up to a page, of 63 lights,
+// Numbers of lights in the lists of consecutive blocks of blockScene. Up to a page, of 63 lights,
 // lists of tiles are made together, and runs of pairs end next to and far from those of 8, 16 and
 // 32 lanes.
 constexpr uint32_t lightsOfBlocks[] = {1, 7, 8, 0, 31, 32, 33, 62, 63, 64, 126, 127, 130};
@@ -533,7 +533,7 @@ TEST_F(ClusterListsTest, ListsThatShareAGroupHoldTheirOwnLights)
     EXPECT_GT(wholePages, 5u);
 }
 
-// Which lists find pages depends on the schedule. Those that do hold the same lights as with enough
+// The schedule decides which lists find pages. Those that do hold the same lights as with enough
 // pages, and all others are marked.
 TEST_F(ClusterListsTest, ListsOfGroupsWithoutRoomAreMarked)
 {

@@ -61,8 +61,8 @@ TEST_F(LightingTest, StatsOfFramesThatNeverWereAreAnError)
     }
 }
 
-// What the engine chooses for GPUs, such as reading lights from storage buffers and making lists by
-// groups of lanes, gives the bits of what it chooses for llvmpipe, also with little memory for
+// The choices of the engine for GPUs, such as reading lights from storage buffers and making lists
+// by groups of lanes, gives the bits of what it chooses for llvmpipe, also with little memory for
 // lists.
 TEST_F(LightingTest, FormsForGpusGiveTheSameBits)
 {

@@ -115,7 +115,7 @@ protected:
         const auto read = texels.as<uint32_t>();
         return {read.begin(), read.end()};
     }
-    // Whether the device writes such images without a format in the shader.
+    // Tells whether the device writes such images without a format in the shader.
     bool writes(VkFormat format) const
     {
         VkFormatProperties3 more{.sType = VK_STRUCTURE_TYPE_FORMAT_PROPERTIES_3};

@@ -57,7 +57,7 @@ double hitTube(const Ray& ray, const glm::dvec3& center, const CndLight& l, doub
     return near > 0 ? near : far > 0 ? far : infinity;
 }
 
-// Whether a point, relative to the centre, is less than `room` metres outside every edge.
+// Tells whether a point, relative to the centre, is less than `room` metres outside every edge.
 bool isInPolygon(const CndLight& l, const glm::dvec3& p, const glm::dvec3& normal, double room)
 {
     const auto corner = [&](uint32_t i) {

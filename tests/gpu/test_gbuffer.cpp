@@ -168,7 +168,7 @@ TEST_F(GBufferPacking, ExactNumbersAndNumbersOutOfRange)
         expectNumbers(i, exact[i / 2], float(i % 2));
     for (size_t i = 0; i < std::size(outside); ++i)
         expectNumbers(2 * std::size(exact) + i, clamped[i], clamped[i]);
-    // What reflects nothing is stored as zeros.
+    // A surface that reflects nothing is stored as zeros.
     EXPECT_EQ(outputs[0].albedo, glm::uvec2(0));
     EXPECT_EQ(outputs[0].specular, glm::uvec2(0));
 }
@@ -327,7 +327,7 @@ TEST_F(GBufferMesh, CompactLayoutHoldsTheMaterial)
     }
 }
 
-// What emits light is drawn after everything else, in a pass of its own. Whatever the order of the
+// Emissive surfaces are drawn after everything else, in a separate pass. Whatever the order of the
 // instances, the nearer surface is seen, and it alone is in the radiance.
 TEST_F(GBufferMesh, NearerSurfacesHideRadiance)
 {

@@ -17,7 +17,7 @@ namespace candelabra::test
 class GBufferLevels : public RasterTest
 {
 protected:
-    // What culling left for the draws: the commands, and the instances that they draw.
+    // The result of culling: the draw commands, and the instances that they draw.
     struct Drawn {
         std::vector<gpu::DrawCommand> commands;
         std::vector<uint32_t> visible;

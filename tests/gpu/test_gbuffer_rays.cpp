@@ -209,7 +209,7 @@ TEST_F(GBufferRays, BallsAreDrawnWhereTheyAreSeen)
     EXPECT_GT(behind, 5u);
 }
 
-// Where the plane through the eye all but touches a ball, rounding must not cut the ball off.
+// If the plane through the eye nearly touches a ball, rounding must not cut the ball off.
 TEST_F(GBufferRays, BallsBesideTheEyeAreDrawnWhereTheyAreSeen)
 {
     Random random(48);
@@ -275,8 +275,7 @@ TEST_F(GBufferRays, PlanesAndBallsHaveTheSameBitsOnEveryDevice)
     }
 }
 
-// What planes and balls store of their materials are the bits of a second implementation of the
-// format.
+// The stored materials of planes and balls have the bits of a second implementation of the format.
 TEST_F(GBufferRays, MaterialsHaveTheSameBitsOnEveryDevice)
 {
     RasterScene scene;

@@ -161,7 +161,7 @@ protected:
                     pixels[k] = (glm::dvec2(c) / c.w + 1.0) * 0.5 * size;
                     w = std::min(w, c.w);
                 }
-                // What the kernel allows for grows towards the eye.
+                // The margin of the kernel grows towards the eye.
                 count += w >= 1 && isClearlyEmpty(pixels, size, 0.02 + 0.3 / w, front);
             }
         }

@@ -238,7 +238,7 @@ TEST_P(Layouts, AreLitLikeOurOwn)
     EXPECT_TRUE(agree(host, brute));
 }
 
-// Whether the normal of a pixel points at an edge between two faces of a cube map, but for
+// Tells whether the normal of a pixel points at an edge between two faces of a cube map, except for
 // rounding. Normals of few bits often do.
 bool pointsAtCubeEdge(const CpuGBuffer& g, size_t pixel)
 {

@@ -194,7 +194,7 @@ TEST_F(RadianceFormats, ElevenBits)
     cndDestroyLighting(lighting);
 }
 
-// What a half float cannot hold is stored as the largest value that it can.
+// A value that is too large for a half float is stored as the largest half float.
 TEST_F(RadianceFormats, HalvesSaturate)
 {
     const HostCase host;

@@ -57,7 +57,7 @@ TEST_F(InfluenceTest, ScenesStayWithinTheError)
     }
 }
 
-// Where lamps add little to the existing light, their lists are short.
+// If lamps add little to the existing light, their lists are short.
 TEST_F(InfluenceTest, LampsByDayEndWhereTheDisplayDoesNotTell)
 {
     using namespace app;

@@ -197,7 +197,7 @@ TEST_F(LightingTest, RunsAreBitIdentical)
     for (int i = 0; i < runs; ++i) // the first four with a new lighting each
         EXPECT_TRUE(sameBits(first.radiance,
                              run(g, lights, {.ownLighting = i < 4, .frames = i % 4 + 1}).radiance));
-    // Which lists find a page depends on the schedule, and with it which pipeline shades a cluster.
+    // The schedule decides which lists find a page, and so which pipeline shades a cluster.
     for (int i = 0; i < 5; ++i)
         EXPECT_TRUE(agree(first.radiance, run(g, lights, {.listBudget = 100000}).radiance));
 }

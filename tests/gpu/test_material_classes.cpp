@@ -186,8 +186,8 @@ TEST_F(LightingTest, TilesWithoutASpecularLobeAreShadedWithoutIt)
     cndDestroyLighting(classed);
 }
 
-// Which cluster finds room for its list depends on the schedule, so a class must be shaded alike
-// with and without lists, as far as the driver compiles pipelines alike.
+// The schedule decides which cluster finds room for its list, so a class must be shaded the same
+// way with and without lists, as far as the driver compiles pipelines the same way.
 TEST_F(LightingTest, ClassesAreAlikeWithoutRoomForLists)
 {
     const CpuGBuffer g = twoClasses(144, 96);

@@ -85,7 +85,7 @@ TEST_F(LightingTest, RandomFramesEqualBrute)
     EXPECT_GE(lit, frames / 2); // most frames have lit pixels to compare
 }
 
-// Whether a group or a lane makes a cluster and a list changes neither.
+// Clusters and lists are the same whether a group or a lane makes them.
 TEST_F(LightingTest, RandomFramesHaveTheSameListsFromGroupsAndFromLanes)
 {
     const uint32_t frames = fullTests() ? 1000 : 20;

@@ -384,7 +384,7 @@ INSTANTIATE_TEST_SUITE_P(Modules, Requirements,
                                                                                  : "Exposure");
                          });
 
-// What the loader answers for an instance of Vulkan 1.0, whatever the device has.
+// The loader's answer for an instance of Vulkan 1.0, whatever the device has.
 TEST_F(GpuTest, AnInstanceOfVulkan10IsNamed)
 {
     for (const bool stated : {false, true}) {

@@ -173,7 +173,7 @@ std::string randomInputs(uint32_t seed)
     const auto below = [&](uint32_t n) { return uint32_t(random() % n); };
     const std::vector<KeyBinding> bindings = allBindings();
     const char* const typed[] = {"5", "7", "BackSpace", "Return", "Home", "ctrl+a"};
-    // How often keys were pressed that take long: two of these do.
+    // Counts the presses of slow keys. Two presses of each are enough.
     std::map<KeyAction, int> slow{{KeyAction::FewerLights, 0},  {KeyAction::MoreLights, 0},
                                   {KeyAction::SaveRadiance, 0}, {KeyAction::SaveScene, 0},
                                   {KeyAction::ListLights, 0},   {KeyAction::Compare, 0},

@@ -8,8 +8,8 @@
 namespace candelabra::test
 {
 
-// Whether this is a build with AddressSanitizer (g++ and clang announce it in different ways), in
-// which tests take ten times as long.
+// True in a build with AddressSanitizer (g++ and clang announce it in different ways), in which
+// tests take ten times as long.
 #if defined(__SANITIZE_ADDRESS__)
 inline constexpr bool sanitized = true;
 #elif defined(__has_feature)

@@ -53,7 +53,7 @@ protected:
                                      VkImageLayout layout, uint32_t bytesPerTexel) const;
 };
 
-// Whether tests run with validation.
+// Tells whether tests run with validation.
 bool validates();
 
 // Makes all earlier writes visible to everything later.

@@ -83,7 +83,7 @@ public:
     };
     std::map<VkBuffer, Buffer> buffers;
 
-    // What a command buffer uses, and what it will change.
+    // The objects that a command buffer uses, and those that it will change.
     struct Commands {
         std::set<uint64_t> used; // handles of objects
         struct Fill {

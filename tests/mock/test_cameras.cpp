@@ -64,7 +64,7 @@ Matrix orthographic(float nearPlane, float farPlane, bool reversed)
             1};
 }
 
-// What a clipFromView with this element is refused with.
+// Returns the message that refuses a clipFromView with this element.
 std::string shears(int element)
 {
     return "CndCamera: clipFromView may only scale and shift x and y (element " +

@@ -76,8 +76,8 @@ TEST(ImageFormats, DisplaysHaveOneOfFour)
             .starts_with("CndLightingDesc: overlayFormat is VK_FORMAT_R8G8B8A8_SRGB, which"));
 }
 
-// What the engine changes in the code of a kernel is the type of one image; everything else, also
-// an image of the host with the same type, keeps its meaning.
+// In the code of a kernel, the engine changes only the type of one image. Everything else, also an
+// image of the host with the same type, keeps its meaning.
 TEST(ImageFormats, OneImageOfAKernelChangesItsType)
 {
     for (const gpu::Spirv* kernel : spirv::shade_tiles_comp)

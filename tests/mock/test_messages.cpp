@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the host's message callback receives: little, each message once, and none while recording.
+// The host's message callback receives few messages, each once, and none while recording.
 #include <cstring>
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each module needs of a device: everything that is listed has a sentence of its own when it
+// Tests the needs of each module. Everything that is listed has its own sentence when it
 // is missing, and the code of the module's kernels needs no more and no less.
 #include <algorithm>
 #include <cstring>
@@ -202,7 +202,7 @@ TEST(Requirements, Vulkan11NeedsAnExtension)
     }
 }
 
-// What Vulkan 1.3 alone guarantees is not used with older versions.
+// With older versions, nothing is used that only Vulkan 1.3 guarantees.
 TEST(Requirements, FormatsThatShadersDoNotNameNeedVulkan13)
 {
     MockVulkan vulkan;
@@ -221,7 +221,7 @@ TEST(Requirements, FormatsThatShadersDoNotNameNeedVulkan13)
     EXPECT_NE(message(VK_FORMAT_B8G8R8A8_UNORM).find("need Vulkan 1.3"), std::string::npos);
 }
 
-// What the code of a module's kernels needs.
+// The needs of the code of a module's kernels.
 struct CodeNeeds {
     uint32_t version = 0, lanes = 0, storageBuffers = 0;
     std::set<uint32_t> capabilities;

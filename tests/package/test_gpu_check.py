@@ -16,7 +16,7 @@ work = build / "gpu_check"
 bundle = work / "a bundle"
 device = os.environ.get("CANDELABRA_TEST_DEVICE")
 BARE = {"PATH": "/usr/bin:/bin", "HOME": "/nonexistent"}
-# What Mesa compiled for other tests need not be compiled again.
+# Shaders that Mesa compiled for other tests need not be compiled again.
 BARE["CANDELABRA_CHECK_SHADER_CACHE"] = os.environ.get("MESA_SHADER_CACHE_DIR") or os.path.expanduser("~/.cache")
 BARE |= {name: value for name, value in os.environ.items() if name.startswith("VK_")}  # where the driver is
 

@@ -11,7 +11,7 @@ import tempfile
 
 root = pathlib.Path(sys.argv[1]).resolve()
 PREFIXED = re.compile(r"(cnd|Cnd|CND_|CANDELABRA_)[A-Z0-9_]")
-# What GLSL and the functions of hosts call by a name of their own.
+# Names that GLSL and the functions of hosts define.
 GIVEN = {"main", "candelabraVisibility", "candelabraReadSurface"}
 TOKEN = re.compile(r"[A-Za-z_]\w*|##|\S")
 failures = []

@@ -153,7 +153,7 @@ SEARCHED = [
     ("tests", ["tests", "tests/data", "tools/candelabra", "tools", "engine", "engine/include", "shaders"]),
 ]
 
-# What public headers may include with angle brackets: the standard library and Vulkan.
+# Public headers may include these with angle brackets: the standard library and Vulkan.
 PUBLIC_SYSTEM = re.compile(r"^(vulkan/vulkan_core\.h|[a-z_]+(\.h)?)$")
 
 SUFFIXES = {".c", ".comp", ".cpp", ".frag", ".glsl", ".h", ".hpp", ".vert"}

@@ -32,7 +32,7 @@ TEST(BruteRects, CoverEveryPixelOnceWithLimitedWork)
         }
 }
 
-// Where all pairs fit into one dispatch, there is one.
+// If all pairs fit into one dispatch, there is one.
 TEST(BruteRects, AreAsFewAsPossible)
 {
     uint32_t count = 0;

@@ -415,7 +415,7 @@ TEST(Showcase, LampsAreDimEnoughForADisplayToShowTheirColour)
                   3 * std::min({light.emission[0], light.emission[1], light.emission[2]}))
             << light.type;
     }
-    // What holds the lamps is left out where they move.
+    // Moving lamps have no holders.
     EXPECT_LT(generateShowcase({.moving = true}).analyticObjects.size(),
               scene.analyticObjects.size());
 }

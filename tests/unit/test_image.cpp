@@ -154,7 +154,7 @@ struct ForeignExr {
     int width = 37, height = 70, left = 0, top = 0;
     int sampling = 1; // of the first channel
 
-    // What half, float and int can hold.
+    // Returns a value that half, float and int can hold.
     float value(size_t channel, int x, int y) const
     {
         return float((x * 7 + y * 31 + int(channel) * 113) % 1021);

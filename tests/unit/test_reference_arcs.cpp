@@ -327,7 +327,7 @@ TEST(ReferenceArcs, lightsAtTheirLimitsMeet)
     worst.add(worstDifference(ball, tube(place + glm::dvec3(0, 1e-10, 0), 0.4)),
               "hardly any length");
     worst.add(worstDifference(ball, tube(place + 3.0 * away, 0.4)), "seen along its axis");
-    // Where the receiver all but lies in the far sphere's extension, the rim passes to the tube's.
+    // Where the receiver is almost in the far sphere's extension, the rim passes to the tube's.
     const glm::dvec3 side = glm::normalize(glm::cross(away, glm::dvec3(0, 0, 1)));
     const double angle = std::asin(0.4 / glm::length(place));
     for (const double beside : {-1e-9, 1e-9}) {

@@ -207,7 +207,7 @@ Factors badStart(double perturbation, uint64_t seed)
     return out;
 }
 
-// What the constants are fitted to, and groups that no fit sees.
+// The groups to which the constants are fitted, and groups that no fit sees.
 struct Groups {
     ConicObjective training, heldOut;
 };

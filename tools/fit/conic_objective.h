@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far the closed form of sphere lights is from quadrature, over a set of lights, as a function
-// of its fitted constants (shaders/shared/conic_constants.h). `candelabra_fit conic` minimises it.
-// The closed form is that of the shaders in double precision (tools/formula); the truth comes from
-// engine/reference, which shares no code with shaders.
+// Measures how far the closed form of sphere lights is from quadrature, over a set of lights, as a
+// function of its fitted constants (shaders/shared/conic_constants.h). `candelabra_fit conic`
+// minimises it. The closed form is that of the shaders in double precision (tools/formula); the
+// truth comes from engine/reference, which shares no code with shaders.
 #pragma once
 
 #include <cstdint>

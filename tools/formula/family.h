@@ -30,7 +30,7 @@ struct Shading {
 
 #include "double_shaders.h"
 
-    // What shaders read from buffers.
+    // The values that shaders read from buffers.
     struct Shapes {
         const formula::Light& given;
 

@@ -68,10 +68,10 @@ std::vector<std::string> objections(const std::vector<ProfiledRun>& a,
     return out;
 }
 
-// Which time of a run's frames is compared. Frames that draw the same differ by noise alone, which
-// mostly makes them longer, so that the shortest time varies least from run to run (DECISIONS 36).
-// If frames differ in their work, the shortest time would be that of the cheapest frame, and the
-// median is taken.
+// The time of a run's frames that is compared. Frames that draw the same differ by noise alone,
+// which mostly makes them longer, so that the shortest time varies least from run to run (DECISIONS
+// 36). If frames differ in their work, the shortest time would be that of the cheapest frame, and
+// the median is taken.
 struct Statistic {
     const char* name; // its name in results
     double ProfiledTime::*ms;
@@ -111,8 +111,8 @@ bool allPositive(const std::vector<double>& values)
     return std::all_of(values.begin(), values.end(), [](double v) { return v > 0; });
 }
 
-// What tables show of the times of one side: their geometric mean. RunRatio::ratio is the quotient
-// of these means.
+// Returns the value that tables show for the times of one side: their geometric mean.
+// RunRatio::ratio is the quotient of these means.
 double meanMs(const std::vector<double>& times)
 {
     double logarithms = 0;

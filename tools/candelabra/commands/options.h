@@ -18,7 +18,7 @@
 namespace candelabra::app
 {
 
-// What every command is given by main.
+// The arguments that main gives every command.
 struct ProgramContext {
     std::string commandLine;
     bool quiet = false;
@@ -35,7 +35,7 @@ struct DeviceArguments {
     void requireRoomFor(uint32_t lights) const;
 };
 
-// How the diffuse and the specular lobe of a material share the light.
+// The way in which the diffuse and the specular lobe of a material share the light.
 struct LobeArguments {
     std::string lobes;
     std::string energyCompensation;
@@ -69,7 +69,7 @@ struct SceneArguments {
     void warnOfIdleOptions(std::optional<uint32_t> lights) const;
 };
 
-// How a frame is drawn.
+// The options of a frame.
 struct FrameArguments {
     std::string size, camera, fit;
     std::string gbuffer = "full", specular, culling = "clustered";

@@ -60,7 +60,7 @@ struct PartTime {
     double wallSeconds = 0, processorSeconds = 0;
 };
 
-// What the parts measured, for sentences and comparisons, and what they add to the page.
+// The results of the parts, for sentences and comparisons, and their additions to the page.
 struct Measured {
     std::string pictures; // of the section that comes first
     std::vector<ReportSection> sections;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands, hangs and lies about in the hall.
+// Makes the furnishings of the hall.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lights the hall whatever the number of its lights: lamps in open cages and the evening light
-// that comes in through the windows. A hall of few lights has the first of them. The other lamps
-// hang there dark.
+// Makes the sources of light in the hall, for any number of lights: lamps in open cages and the
+// evening light that comes in through the windows. A hall of few lights has the first of them. The
+// other lamps hang there dark.
 #include <cmath>
 #include <iterator>
 

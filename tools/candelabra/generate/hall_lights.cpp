@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the hall's lights hang.
+// Places the hall's lights.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far lights must reach so that a wanted number of them lights the average visible point.
+// Finds how far lights must reach so that a wanted number of them lights the average visible point.
 #pragma once
 
 #include <vector>
@@ -17,8 +17,9 @@ struct SurfaceSample {
     glm::dvec3 normal{0, 1, 0};
 };
 
-// What the scene's default camera sees at 16:9 (or its own aspect), on a fixed grid of pixels that
-// hit a surface; when these are few, points spread evenly over all instances. May be empty.
+// The points that the scene's default camera sees at 16:9 (or its own aspect), on a fixed grid of
+// pixels that hit a surface; when these are few, points spread evenly over all instances. May be
+// empty.
 std::vector<SurfaceSample> visibleSamples(const Scene& scene);
 
 // The largest part of a light's influence radius that its radius may take: small lights with a

@@ -27,8 +27,8 @@ struct LightSite {
     float radiusShare = static_cast<float>(maxRadiusShare);
     float reach = 1;     // influence radius relative to that of the others, > 0
     glm::vec3 colour{1}; // linear Rec.709 with luminance 1
-    // How bright the light is: its luminance in cd/m^2. Without one, the illuminance in lx at the
-    // distance of the influence radius, on a surface that faces the light and before the window.
+    // The luminance of the light in cd/m^2. Without one, the illuminance in lx at the distance of
+    // the influence radius, on a surface that faces the light and before the window.
     std::optional<float> luminance;
     float edgeIlluminance = 2;
     LightMotion motion;

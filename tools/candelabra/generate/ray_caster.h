@@ -25,7 +25,7 @@ struct RayHit {
     glm::dvec3 normal{0, 1, 0}; // unit, interpolated, on the side from which the ray comes
     bool front = true;          // the ray meets the front of the surface
     uint32_t material = 0;
-    // What was hit: an index of Scene::instances or of Scene::analyticObjects.
+    // The hit object: an index of Scene::instances or of Scene::analyticObjects.
     uint32_t object = 0;
     bool analytic = false;
 };

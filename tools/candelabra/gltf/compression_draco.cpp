@@ -24,7 +24,7 @@ constexpr uint64_t mostTrianglesPerByte = 256;
 // Bytes of all attributes of one vertex. Those of glTF have at most 16 bytes each.
 constexpr uint64_t maxVertexBytes = 256;
 
-// How large a primitive may be, and why it was refused.
+// The largest allowed size of a primitive, and the reason why it was refused.
 struct Limits {
     uint64_t triangles = 0, vertices = 0;
     std::string complaint;
@@ -187,8 +187,8 @@ int addIndices(GltfDocument& document, const draco::Mesh& mesh)
     return addAccessor(document, indices, 1, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, false);
 }
 
-// What a primitive's accessors, and the primitives before it, allow Draco to decode. `json` is the
-// primitive in the file.
+// The limits that a primitive's accessors, and the primitives before it, set for Draco. `json` is
+// the primitive in the file.
 Limits limitsOf(const GltfDocument& document, const nlohmann::json& json,
                 const std::string& element, size_t compressedBytes, const GltfMeshBudget& budget)
 {

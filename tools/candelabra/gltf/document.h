@@ -35,8 +35,8 @@ struct GltfDocument {
     // The repaired JSON: every property that the loader reads has the right type, range and index.
     nlohmann::json json;
     GltfUse used;
-    // What tinygltf made of it, without buffers and images, which the loader reads itself.
-    // Extensions and extras are read from `json`, because tinygltf::Value cuts integers to 32 bits.
+    // The result of tinygltf, without buffers and images, which the loader reads itself. Extensions
+    // and extras are read from `json`, because tinygltf::Value cuts integers to 32 bits.
     // Decompression changes the buffer views and accessors of `model`, and not those of `json`.
     tinygltf::Model model;
     // The buffers of the file, each with the byteLength that was declared for it, and after them

@@ -12,7 +12,7 @@ namespace candelabra::app
 namespace
 {
 
-// How far corners may lie from those of an exact rectangle, as a share of its diagonal.
+// The largest distance of corners from those of an exact rectangle, as a share of its diagonal.
 constexpr double tolerance = 1e-3;
 
 struct Rectangle {

@@ -24,7 +24,7 @@ constexpr std::array<std::string_view, 16> wholeExtensions = {
     // These only name things or say where they come from.
     "KHR_xmp", "KHR_xmp_json_ld"};
 
-// What is missing from a picture because the loader does not read an extension, or not all of it.
+// The effects that a picture lacks because the loader does not read an extension, or not all of it.
 struct Gap {
     std::string_view extension;
     std::string_view consequence; // what the picture lacks, and what helps

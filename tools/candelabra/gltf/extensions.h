@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which extensions of glTF the loader reads, and what is missing from the picture because it reads
-// nothing or only a part of the others. Internal to the glTF loader.
+// Lists the extensions of glTF that the loader reads, and the effects that a picture lacks because
+// it reads nothing or only a part of the others. Internal to the glTF loader.
 #pragma once
 
 #include <string>

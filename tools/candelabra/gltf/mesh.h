@@ -21,7 +21,7 @@ std::string gltfPrimitive(size_t mesh, size_t primitive);
 constexpr uint64_t maxSceneVertices = uint64_t{1} << 25;
 constexpr uint64_t maxSceneIndices = uint64_t{1} << 28;
 
-// How many more vertices and indices may be added while a file is read.
+// The number of vertices and indices that may still be added while a file is read.
 struct GltfMeshBudget {
     uint64_t vertices = maxSceneVertices;
     uint64_t indices = maxSceneIndices;

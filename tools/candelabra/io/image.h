@@ -24,8 +24,7 @@ struct Image {
     uint32_t width = 0, height = 0; // pixels, 1..16384
     uint32_t channels = 0;          // 1 (grey) or 3 (RGB)
     std::vector<float> pixels;      // width * height * channels, rows from the top
-    // What the header of the file says about the values but a reader did not apply, one sentence
-    // each.
+    // Statements of the header about the values that a reader did not apply, one sentence each.
     std::vector<std::string> warnings = {};
 };
 

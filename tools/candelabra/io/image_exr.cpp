@@ -203,7 +203,7 @@ private:
     void applyHeader();
     exr_chunk_info_t readBlockInfo(int y);
     void readBlock(const exr_chunk_info_t& block);
-    // Where a channel lies in the pixels of the image; -1: the channel is not read.
+    // The place of a channel in the pixels of the image; -1: the channel is not read.
     int placeOf(std::string_view channel) const
     {
         return image_.channels == 3 ? placeInColor(channel) : channel == greyChannel_ ? 0 : -1;

@@ -23,7 +23,7 @@ std::string temporaryName(const std::string& path);
 void writeFileAtomically(const std::string& path, std::span<const uint8_t> bytes);
 
 // Returns why writeFileAtomically could not create a file at `path`, or an empty text if it could.
-// Whether there is room for the file remains open. Leaves everything as it is.
+// Does not check whether there is room for the file. Leaves everything as it is.
 std::string writeRefusal(const std::string& path);
 
 // Reads a file of at most 4 GiB. Fails on pointers of Git LFS.
@@ -33,8 +33,8 @@ std::vector<uint8_t> readImageFile(const std::string& path);
 // the size that follows from them. `path` is the file that is to be written.
 void requireImage(const std::string& path, const Image& image);
 
-// How a pointer of Git LFS begins, which people have who have cloned without it, and what they are
-// told.
+// The beginning of a pointer of Git LFS, which a clone without Git LFS contains, and the message
+// about it.
 constexpr std::string_view lfsPointerStart = "version https://git-lfs";
 constexpr std::string_view lfsPointerText =
     "is a pointer of Git LFS, not the file itself; \"git lfs pull\" fetches it";

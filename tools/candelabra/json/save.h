@@ -23,7 +23,7 @@ struct MaterialOverride {
 // Gives all materials the roughness and metalness of `override`, if `override` is on.
 void overrideMaterials(std::vector<Material>& materials, const MaterialOverride& override);
 
-// Where the surfaces of a scene come from. A description refers to its source if it cannot hold the
+// The source of the surfaces of a scene. A description refers to its source if it cannot hold the
 // surfaces itself, because they are meshes.
 struct SceneSource {
     std::string scene; // hall, field, fence, showcase, or the path of a glTF file

@@ -23,7 +23,7 @@
 namespace candelabra::app
 {
 
-// What coordinates and lengths may be.
+// The valid coordinates and lengths.
 inline constexpr NumberRange coordinate{-maxCoordinate, maxCoordinate};
 
 // Reads layer numbers such as [0, 3] as the mask CndLight::layers. Throws SceneError.

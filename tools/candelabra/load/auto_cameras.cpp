@@ -51,7 +51,7 @@ glm::dvec3 threeQuarterDirection(const Scene& scene)
 {
     const Bounds bounds = sceneBounds(scene);
     const glm::dvec3 size = bounds.max - bounds.min;
-    // What lies flat, such as a floor plan, is seen from higher up.
+    // A flat scene, such as a floor plan, is seen from higher up.
     const bool flat = size.y < 0.15 * std::max(size.x, size.z);
     const double high = flat ? 0.75 : 0.35, low = -0.35;
     std::vector<glm::dvec3> directions;
@@ -122,7 +122,7 @@ std::optional<glm::dvec3> intoOpenSide(const Scene& scene)
 constexpr int headings = 24; // horizontal rays around a standpoint
 constexpr int viewHalf = 3;  // rays to either side of a view's middle: 90 degrees in all
 
-// What is seen around a point.
+// The surroundings of a point.
 struct Standpoint {
     glm::dvec3 position{0};
     std::array<double, headings> distances{}; // to the front of a surface; 0 where there is none

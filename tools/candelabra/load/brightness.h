@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How bright the light of a scene is. No surface casts a shadow here, as in the engine.
+// Measures how bright the light of a scene is. As in the engine, no surface casts a shadow.
 #pragma once
 
 #include "scene/scene.h"

@@ -10,8 +10,8 @@
 namespace candelabra::app
 {
 
-// What is seen of all instances from one direction, in shares of the pixels of a small picture that
-// fits around them.
+// The visible part of all instances from one direction, in shares of the pixels of a small picture
+// that fits around them.
 struct OutsideView {
     double drawn = 0;  // a surface is drawn: a front face, or a back face that the material shows
     double fronts = 0; // the nearest surface is a front face

@@ -108,7 +108,7 @@ double Areas::of(const Instance& instance)
     return std::sqrt(mesh->area * trace);
 }
 
-// How much surfaces glow. Every texture is looked at once.
+// Finds how much surfaces glow. It reads every texture once.
 class Glow
 {
 public:

@@ -34,7 +34,7 @@ struct StressPoint {
     CndLightingStats stats{}; // including counted pairs
     CndExposureStats exposure{};
     BruteCheck check;
-    // Whether a second, new renderer gave the same image, bit for bit; none with CheckExtent::None.
+    // True if a second, new renderer gave the same image, bit for bit; none with CheckExtent::None.
     std::optional<bool> identical;
     std::string image; // the path of the picture
     Json scene;

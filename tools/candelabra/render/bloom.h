@@ -30,7 +30,7 @@ public:
     // disappear.
     VkImageView record(VkCommandBuffer cmd, uint32_t slot, VkImageView radiance, float share);
 
-    // What the last recording made.
+    // The result of the last recording.
     const gpu::Image& result() const { return result_; }
     // The times of the last frame in `slot`.
     const gpu::Timer& timer() const { return timer_; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the camera is in each frame of a sequence.
+// Finds the camera of each frame of a sequence.
 #pragma once
 
 #include "io/choice.h"

@@ -194,7 +194,7 @@ struct Renderer::State {
     gbuffer::Targets targets;
     gpu::Image display;
     Lighting lighting; // outlives its view
-    // What there are pipelines for: a mask of CndShadingBits by method, and a mask of light types.
+    // The cases that have pipelines: a mask of CndShadingBits by method, and a mask of light types.
     std::array<std::atomic<uint32_t>, CND_SPECULAR_METHOD_COUNT> shading{};
     std::atomic<uint32_t> lightTypes{0};
     LightingView view;

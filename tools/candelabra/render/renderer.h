@@ -41,8 +41,8 @@ struct RendererOptions {
     std::optional<uint32_t> lightTypes;
 };
 
-// What a frame reuses of the previous frame if nothing has changed. The image is the same, but
-// the GPU time is not, so callers that measure times choose explicitly.
+// The parts of the previous frame that a frame reuses if nothing has changed. The image is the
+// same, but the GPU time is not, so callers that measure times choose explicitly.
 enum class Reuse {
     None,    // nothing: every frame does all the work
     Lists,   // the prepared lights, clusters and lists, if camera and lights have not changed

@@ -158,7 +158,7 @@ VkResult VulkanContext::present(const VkPresentInfoKHR& info) const
 namespace
 {
 
-// What one call of submitAndWait needs. A command pool belongs to one thread at a time.
+// The objects that one call of submitAndWait needs. A command pool belongs to one thread at a time.
 struct OneTimeCommands {
     VkDevice device;
     VkCommandPool pool = VK_NULL_HANDLE;

@@ -18,7 +18,7 @@ struct ContextOptions {
     std::string device; // `wanted` of chooseDevice
     Validation validation = Validation::Off;
     Presentation presentation = Presentation::Headless;
-    // Where the engine finds Vulkan's functions.
+    // The function by which the engine finds Vulkan's functions.
     PFN_vkGetInstanceProcAddr engineFunctions = vkGetInstanceProcAddr;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a linear transform changes normals and areas.
+// The matrix by which a linear transform changes normals and areas.
 #pragma once
 
 #include <glm/glm.hpp>

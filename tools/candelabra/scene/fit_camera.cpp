@@ -85,7 +85,7 @@ struct Wedge {
         down = std::max(down, -a - slope * z);
     }
     double greatestDepth() const { return -0.5 * (up + down) / slope; }
-    // Where a camera at the depth `d` has as much room on one side as on the other.
+    // Returns the place where a camera has as much room on one side as on the other.
     double middle() const { return 0.5 * (up - down); }
 };
 

@@ -10,8 +10,8 @@
 namespace candelabra::app
 {
 
-// How much of the width or of the height of a picture an object fills to which a camera is fitted:
-// of the one that it reaches first.
+// An object to which a camera is fitted fills this share of the width or of the height of a
+// picture, whichever it reaches first.
 constexpr double fitShare = 0.85;
 
 // Calls visit(position) for every vertex of these instances that a triangle uses, in world space.
@@ -24,9 +24,9 @@ void visitVertices(const Scene& scene, const InstanceRange& range,
 // wider or higher. So nothing is stretched or cut off.
 Camera cameraOfPicture(const Camera& camera, double aspect);
 
-// How much of a picture points fill.
+// The share of a picture that points fill.
 struct PictureShare {
-    // Whether none of the points is in the picture, because all are behind the camera, or all are
+    // True if none of the points is in the picture, because all are behind the camera, or all are
     // outside the same edge of the picture.
     bool isEmpty = false;
     // The distance between the outermost points, as a share of the picture's width and of its

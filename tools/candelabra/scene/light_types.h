@@ -11,7 +11,7 @@
 namespace candelabra::app
 {
 
-// What a key of a scene description says of a light.
+// The meaning of a key of a scene description for a light.
 enum class LightKeyMeaning {
     Position,     // its centre
     Direction,    // CndLight::direction, of any length

@@ -54,8 +54,8 @@ struct TextureRef {
 // is how bright screens are.
 constexpr float unlitLuminance = 100;
 
-// Where a surface is: everywhere, where its coverage is at least a cutoff, or on that share of the
-// light's way to the viewer that its coverage says, as a fine screen would be.
+// A surface is everywhere, where its coverage is at least a cutoff, or, like a fine screen, on a
+// share of its area that equals its coverage.
 enum class AlphaMode { Opaque, Mask, Blend };
 
 // Metallic-roughness material: diffuse albedo = baseColor * (1 - metalness) * diffuseWeight,
@@ -173,7 +173,7 @@ struct Scene {
     bool energyCompensation = false;      // add the light that bounces between microfacets
     std::optional<glm::uvec2> resolution; // default image size
     bool lightsVisible = true;            // draw area lights as emitters
-    // What the file contains but the program does not use, and what looks wrong, one sentence each.
+    // One sentence for each thing in the file that the program does not use or that looks wrong.
     std::vector<std::string> warnings;
     std::vector<std::string> notes; // what the program has chosen or found, one sentence each
 };

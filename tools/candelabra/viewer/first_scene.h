@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the window shows until the first scene is there.
+// Shows the window until the first scene is loaded.
 #pragma once
 
 #include <memory>

@@ -26,7 +26,7 @@ bool hasField(const CndLight& light, CndLightFieldBits field)
     return (cndLightFields(light.type) & field) != 0;
 }
 
-// Whether the light's radius is the sine of an angle.
+// Tells whether the light's radius is the sine of an angle.
 bool isSun(const CndLight& light)
 {
     return cndIsDistant(light.type) && hasField(light, CND_LIGHT_FIELD_RADIUS_BIT);

@@ -22,7 +22,7 @@ struct LightEditor {
     bool locked = false;
 };
 
-// What the user is told while the editor is locked.
+// The text that the user sees while the editor is locked.
 constexpr const char* editorLocked =
     "the scene is built anew with other lights, which can be edited when they are there";
 

@@ -16,7 +16,7 @@ namespace candelabra::app
 struct LightEdit {
     uint32_t light = 0; // index in the scene
     std::optional<CndLight> before, after;
-    // What a light that was added or removed has; empty if no light of the scene moved then.
+    // The motion of an added or removed light; empty if no light of the scene moved then.
     std::optional<LightMotion> motion{};
 };
 

@@ -51,7 +51,7 @@ std::vector<glm::dvec3> flatOutline(const CndLight& light, const glm::dvec3& cen
     return out;
 }
 
-// How near a line comes to something: the distance, and where on the line that is.
+// The closest approach of a line to something: the distance, and its place on the line.
 struct Approach {
     double miss = std::numeric_limits<double>::infinity(), along = 0;
 };

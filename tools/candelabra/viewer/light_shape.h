@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where lights are in a picture: their outlines, and the light under the mouse. It needs no window.
+// Finds lights in a picture: their outlines, and the light under the mouse. It needs no window.
 #pragma once
 
 #include <optional>
@@ -13,8 +13,8 @@
 namespace candelabra::app
 {
 
-// How a camera projects the world to a picture of `size` pixels. All that the camera frames is in
-// the picture, whatever its aspect (cameraOfPicture).
+// Projects the world to a picture of `size` pixels as a camera does. All that the camera frames is
+// in the picture, whatever its aspect (cameraOfPicture).
 class Projection
 {
 public:
@@ -25,7 +25,7 @@ public:
         glm::dvec3 origin, direction; // world space; the direction is a unit vector
     };
     Line lineAt(glm::dvec2 place) const;
-    // How many metres a pixel is wide at a distance along such a ray.
+    // Returns the width of a pixel in metres at a distance along such a ray.
     double metresPerPixel(double distance) const;
     // The parts of a polyline that are in front of the camera, in pixels, as pairs of ends.
     std::vector<glm::dvec2> segments(const std::vector<glm::dvec3>& polyline) const;

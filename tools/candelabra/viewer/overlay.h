@@ -50,8 +50,8 @@ public:
     // Ends both. A field keeps what was typed. Returns false if that has not arrived there yet: the
     // call must be repeated after the next frame.
     bool endEditing();
-    // Whether the mouse is over a widget or used by one. Returns nothing if only the next frame
-    // will tell.
+    // Tells whether the mouse is over a widget or used by one. Returns nothing if only the next
+    // frame will tell.
     std::optional<bool> takesMouse() const;
 
 private:
@@ -59,7 +59,7 @@ private:
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
     float builtScale_ = 1; // Window::contentScale() for which the letters were drawn
     const Window& window_;
-    // What was passed on since the last frame.
+    // The input that was passed on since the last frame.
     struct {
         bool text = false, control = false, button = false, motion = false, end = false;
         std::vector<int> keys; // those that were pressed

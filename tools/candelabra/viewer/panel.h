@@ -24,7 +24,7 @@ struct Wipe {
     CndCulling culling = CND_CULLING_CLUSTERED;
 };
 
-// What the user has clicked that is not a light.
+// An object that the user has clicked, other than a light.
 struct SelectedObject {
     std::string name;
     Bounds bounds; // world space

@@ -21,7 +21,7 @@ struct SceneView {
     PixelSize size;
 };
 
-// What stays of what the user sees now when a scene has been loaded.
+// The parts of the present view that stay when a scene has been loaded.
 enum class Kept {
     Nothing,
     Camera,
@@ -68,7 +68,8 @@ public:
     bool busy() const { return work_.busy(); }
     // These may be called only while busy() is true. The step that the loading has reached:
     Job::State state() const { return work_.state(); }
-    // Whether the work has ended, so that take() returns its scene, or begins with another one.
+    // Tells whether the work has ended, so that take() returns its scene, or begins with another
+    // one.
     bool ended() const { return work_.ended(); }
     // Returns the scene, or null if it is not finished or if there is nothing to load. Throws what
     // loading has thrown.

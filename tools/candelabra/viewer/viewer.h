@@ -36,11 +36,11 @@ struct ViewerOptions {
     std::string screenshot; // file for a PNG of the window's last frame; needs `frames`
 };
 
-// How renderers of the viewer are made that draw frames like `frame` at first, apart from their
-// size.
+// Returns the options of renderers of the viewer that first draw frames like `frame`, except for
+// their size.
 RendererOptions rendererOptions(const ViewerOptions& options, const FrameOptions& frame);
 
-// What a frame asks of pipelines.
+// The settings of a frame that decide which pipelines it needs.
 struct Shading {
     CndSpecularMethod specular = CND_SPECULAR_CONIC;
     CndCulling culling = CND_CULLING_CLUSTERED;
@@ -135,8 +135,8 @@ private:
     void useMade();
     void takeBackLights();
     bool canLight() const;
-    // How the user wants the pixels right of the wipe's line to be shaded: with the wipe's specular
-    // method and culling, and without a heat map.
+    // Returns how the user wants the pixels right of the wipe's line to be shaded: with the wipe's
+    // specular method and culling, and without a heat map.
     Shading wantedRight() const;
     // Returns how the pixels of column `x` are shaded.
     FrameOptions optionsAt(int32_t x) const;
@@ -145,7 +145,7 @@ private:
     Renderer* right() const { return panel_.wipe.on ? other_.get() : nullptr; }
     // The first column right of the wipe's line; the image's width if there is no wipe.
     int32_t wipeColumn() const;
-    // What the next frame shows, as StillPicture takes it.
+    // Returns the content of the next frame, for StillPicture.
     PictureSettings pictureSettings() const;
     // Waits for events if there is nothing to draw. Returns whether it has waited.
     bool awaitEvents();
@@ -190,8 +190,9 @@ private:
     Camera seenFrom_;       // the camera of the frame before
     bool edited_ = false;   // lights were edited before that frame
     bool pictured_ = false; // that frame drew the picture, and not the panel alone
-    // How many frames are still drawn before the viewer waits for events. An event may change the
-    // panel, or through it the scene, only one or two frames after the frame that handled it.
+    // The number of frames that are still drawn before the viewer waits for events. An event may
+    // change the panel, or through it the scene, only one or two frames after the frame that
+    // handled it.
     uint32_t settling_ = 0;
     uint64_t panelOnly_ = 0; // number of frames that drew the panel alone
     // Slots in which the present renderer has recorded a frame at its present size: their
@@ -203,8 +204,8 @@ private:
     uint32_t loadingLights_ = 0;
     Kept loadingKept_ = Kept::Nothing;
     Shading loadingShading_;
-    // How the two sides are shaded now. While pipelines for the user's choice are being made, this
-    // differs from that choice.
+    // The present shading of the two sides. While pipelines for the user's choice are being made,
+    // this differs from that choice.
     Shading shownLeft_, shownRight_;
     bool lightsEdited_ = false; // the renderers do not know yet how the user has edited the lights
     // Everything that the user asked for has been made, so the frame shows it.

@@ -56,7 +56,7 @@ public:
 
     GLFWwindow* get() const { return window_; }
     PixelSize framebufferSize() const; // 0x0 while minimised
-    // How many times larger than usual text should be on the monitor of the window.
+    // Returns how many times larger than usual text should be on the monitor of the window.
     float contentScale() const;
     bool wantsToClose() const;
     void close();

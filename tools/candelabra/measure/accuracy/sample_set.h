@@ -55,7 +55,7 @@ SampleSet makeSamples(uint32_t lightType, uint32_t groups, uint64_t seed, LightS
 // done.
 void integrateTruth(SampleSet& set, double relative, const std::function<void(size_t)>& onDone);
 
-// Where a light lies to the horizon of a receiver at the origin with the normal +z.
+// The place of a light relative to the horizon of a receiver at the origin with the normal +z.
 Horizon horizonOf(const CndLight& light);
 
 } // namespace candelabra::app

@@ -268,7 +268,7 @@ PairedRatio CullingPoint::toEngine(const std::string& name) const
     const std::vector<double>& other = of(name).times.totals();
     if (other.size() == engine.size())
         return pairedRatio(engine, other);
-    // What was drawn once has a ratio, but no interval.
+    // A frame that was drawn only once has a ratio, but no interval.
     const double ratio = other.empty() ? 1 : medianOf(other) / medianOf(engine);
     return {{ratio, 0, std::numeric_limits<double>::infinity()}};
 }

@@ -33,7 +33,7 @@ struct MeasuredFrames {
     FrameStats last;
 };
 
-// What happens before and after each measured frame. Both functions may be empty.
+// Functions to call before and after each measured frame. Both may be empty.
 struct FrameHooks {
     // Changes the options of the measured frame `index`.
     std::function<void(uint32_t index, FrameOptions& options)> prepare;

@@ -15,8 +15,8 @@ formula::Receiver receiverInDouble(const gpu::BenchReceiver& receiver);
 // Light `index` of lights of one type; refers to `lights`.
 formula::Light lightInDouble(uint32_t type, const PreparedLights& lights, uint32_t index);
 
-// What LightEvaluator::evaluate would return without rounding. The method is one of the engine's.
-// Uses every core.
+// Returns the result of LightEvaluator::evaluate without rounding. The method is one of the
+// engine's. Uses every core.
 std::vector<formula::Response> respondInDouble(const Evaluation& evaluation,
                                                std::span<const gpu::BenchReceiver> receivers,
                                                std::span<const CndLight> lights);

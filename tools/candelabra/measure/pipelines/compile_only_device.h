@@ -51,7 +51,7 @@ public:
     const DeviceInfo& info() const { return info_; }
     // The description from which modules are created.
     const CndDeviceDesc& desc() const { return desc_; }
-    // What the driver told about the pipelines so far, in the order of their creation.
+    // The driver's reports on the pipelines so far, in the order of their creation.
     const std::vector<PipelineExecutable>& executables() const { return executables_; }
 
 private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a driver's compiler says about every pipeline that the engine makes: registers, spills,
-// memory, instructions. Nothing is run.
+// Prints what a driver's compiler reports about every pipeline that the engine makes: registers,
+// spills, memory, instructions. Nothing is run.
 #pragma once
 
 #include <optional>

@@ -63,7 +63,7 @@ constexpr WholeTime wholeTimes[] = {
     {"CPU, recording", "record", &FrameSeries::recordMs},
     {"frame, until the GPU is done", "frame", &FrameSeries::frameMs}};
 
-// What timing costs a frame.
+// The cost of the timing itself in a frame.
 struct ProfilingOverhead {
     double stamps = 0; // timestamps in a frame, median
     double share = 0;  // the time of these timestamps divided by the median of spanMs

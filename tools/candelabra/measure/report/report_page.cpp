@@ -74,7 +74,7 @@ std::string htmlOf(const ReportSection& section, TermFinder& finder)
     return out + (section.command.empty() ? "" : madeBy(section.command));
 }
 
-// Where each term of the page is explained.
+// Returns an index of the terms of the page, with links to their explanations.
 std::string termIndex(const TermFinder& finder)
 {
     std::string out = "<h2 id=\"glossary\">Where each term is explained</h2>\n<p>";

@@ -29,7 +29,7 @@ std::string bracketed(const MedianInterval& v)
     return fmt::format("{} [{}, {}]", times(v.median), times(v.low), times(v.high));
 }
 
-// How the engine compares with another way that takes `ratio` times as long.
+// Returns a word for the engine beside another way that takes `ratio` times as long.
 std::string verdictWord(const PairedRatio& ratio)
 {
     if (!ratio.isFaster() && !ratio.isSlower())
@@ -66,8 +66,9 @@ const KernelPoint* find(const KernelLevel& level, uint32_t type, const MeasuredM
     return nullptr;
 }
 
-// What the table of errors has: the mean over all directions, with the margin within which it lies
-// with 95% confidence if the means of groups of similar samples are normally distributed.
+// Returns the cell of the table of errors: the mean over all directions, with the margin within
+// which it lies with 95% confidence if the means of groups of similar samples are normally
+// distributed.
 std::string meanPercent(const KernelError& error)
 {
     const std::vector<double>& means = error.groupMeans;
@@ -82,8 +83,8 @@ std::string meanPercent(const KernelError& error)
     return out;
 }
 
-// How many times as large the mean errors of a method are as those of conic, for the light types
-// for which both were measured: "24.8 to 71.2". Returns nothing if there is none.
+// Returns how many times as large the mean errors of a method are as those of conic, for the light
+// types for which both were measured: "24.8 to 71.2". Returns nothing if there is none.
 std::string timesTheError(const KernelLevel& level, const MeasuredMethod& method)
 {
     double least = INFINITY, most = 0;

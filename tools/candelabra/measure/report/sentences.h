@@ -14,7 +14,7 @@
 namespace candelabra::app
 {
 
-// What was run on what.
+// The program, and the device that it ran on.
 struct RunFacts {
     DeviceInfo device;
     std::string version, commit;

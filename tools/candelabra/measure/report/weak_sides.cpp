@@ -131,7 +131,7 @@ std::string dearerCulling(const std::vector<CullingPoint>& points)
                                         counted(points.size(), "configuration"));
 }
 
-// Where Candelabra is not shown to be faster than the best other way of culling.
+// Returns the cases where Candelabra is not shown to be faster than the best other way of culling.
 std::string notFaster(const std::vector<CullingPoint>& points)
 {
     std::string out;

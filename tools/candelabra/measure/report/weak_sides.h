@@ -13,7 +13,7 @@
 namespace candelabra::app
 {
 
-// What parts of the report measured. What was not measured is empty.
+// The results of the parts of the report. Parts that were not measured are empty.
 struct WeakSideFacts {
     KernelLevel kernels;
     std::vector<ImageScene> scenes;

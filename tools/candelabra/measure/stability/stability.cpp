@@ -76,7 +76,7 @@ Compared compareWithTruth(const gpu::SweepRecord& r, const Evaluation& evaluatio
     const bool distant = cndIsDistant(evaluation.lightType);
     if (!distant && !(glm::length(to) > 0))
         return {};
-    // Whether a receiver sees a flat light at all is rounding if its plane passes so close by.
+    // If the plane of a flat light passes so close, rounding decides whether a receiver sees it.
     const glm::dvec3 u(r.shape.axisU), v(r.shape.axisV);
     if (cndLightFields(evaluation.lightType) & CND_LIGHT_FIELD_TWO_SIDED_BIT) {
         const glm::dvec3 facing = glm::length(v) > 0 ? glm::cross(u, v) : u;

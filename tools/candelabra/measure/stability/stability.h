@@ -27,12 +27,12 @@ struct StabilitySettings {
     std::vector<uint32_t> lightTypes;
     std::vector<CndSpecularMethod> methods;
     uint32_t sampleCount = 4; // samples per light of the sampled method
-    // Whether quotients and roots are as wrong as Vulkan allows (inexact_division.h). Continuity is
+    // True: quotients and roots are as inexact as Vulkan allows (inexact_division.h). Continuity is
     // not checked then, because such responses jump from float to float.
     bool inexactDivision = false;
 };
 
-// What the sweep of one slice of the inputs with one evaluation counted.
+// The counts of the sweep of one slice of the inputs with one evaluation.
 struct SweptSlice {
     Evaluation evaluation;
     uint32_t slice;
