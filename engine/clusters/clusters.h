@@ -37,7 +37,7 @@ constexpr VkDeviceSize tileWorkListAt(uint32_t height, uint32_t tileClass)
 {
     return workListAt(height * gpu::TILE_CLASSES + tileClass);
 }
-// Returns how many heights of tiles are told apart for lights of a type: all for spheres on
+// Returns how many heights of tiles are distinguished for lights of a type: all for spheres on
 // llvmpipe, where a loop costs time even if no light needs it, else only gpu::ANY_HEIGHT (DECISIONS
 // 72).
 uint32_t tileHeightsOf(const gpu::Device& device, uint32_t lightType);

@@ -30,8 +30,8 @@ static_assert(gpu::LOBES_SUM == CND_LOBES_SUM);
 constexpr uint32_t defaultCubeSize = 256;
 
 // Devices that limit loops end them after 65,535 iterations in all
-// (decision 12). A row of the image takes environment_cube some iterations besides one per
-// column.
+// (decision 12). For a row of the image, environment_cube takes one iteration per column and some
+// more.
 constexpr uint32_t cubeIterations = 60000, cubeRowOverhead = 16;
 
 CndEnvironmentDesc checkedDesc(const gpu::Device& device, CndEnvironmentDesc desc)

@@ -170,7 +170,7 @@ void addChunks(Batches& b, uint32_t first, uint32_t count, uint32_t firstCommand
 }
 
 // Appends the commands of one batch of `count` instances, which has the last `pieces` pieces. The
-// first run of the commands is the last run of `b` if `sameState` says that it may go on.
+// first run of the commands is the last run of `b` if `sameState` says that it may continue.
 void addCommands(Batches& b, const BatchKey& key, uint32_t count, const PackedMesh& mesh,
                  uint32_t pieces, bool sameState, uint32_t maxDraws)
 {

@@ -79,7 +79,8 @@ double CameraTerms::pixelScale(uint32_t width, uint32_t height) const
     const glm::dmat4 clip(clipFromView);
     const glm::dvec4 w = glm::row(clip, 3);
     const double depth = perspective ? glm::length(glm::dvec3(w)) : w.w;
-    // How far a point moves in the image with its place across the viewing direction, pixels per m.
+    // Returns how far a point moves in the image with its place across the viewing direction,
+    // pixels per m.
     const auto across = [&](int row, uint32_t pixels) {
         const glm::dvec3 terms(glm::row(clip, row));
         return (terms - glm::dot(terms, forward) * forward) * (0.5 * pixels / depth);
@@ -103,7 +104,7 @@ VkRect2D CameraTerms::pixelsOfBall(const glm::dvec3& center, double radius, uint
     };
     const double ww = product(w, w), ahead = glm::dot(w, c);
     // If ww < 0, the plane through the eye (w = 0) cuts the ball, which may then be seen anywhere.
-    // The same is assumed of a ball that all but touches that plane: ww is a difference of numbers
+    // The same is assumed of a ball that nearly touches that plane: ww is a difference of numbers
     // as large as ahead^2, so a ww below 1e-9 ahead^2 keeps less than seven of the sixteen digits
     // of a double, and so would the quotients by ww below.
     if (ww <= 1e-9 * ahead * ahead)

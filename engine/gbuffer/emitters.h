@@ -28,7 +28,7 @@ public:
     // Fills the buffers of `slot` with the latest set. `rasterFrame` holds the slot's RasterFrame.
     // The GPU must have finished the slot's previous frame.
     void update(uint32_t slot, const gpu::Buffer& rasterFrame) noexcept;
-    // Whether recordCulling() has anything to do.
+    // Tells whether recordCulling() has anything to do.
     bool canCull() const { return !empty() && culls(bytes()); }
     // Records cull_emitters. Needed before drawing culled emitters.
     void recordCulling(const gpu::Frame& frame) const noexcept;
@@ -42,7 +42,7 @@ public:
     // gpu::EmitterDraw for each piece; Group tells which.
     VkBuffer draws(uint32_t slot) const { return slots_[slot].buffers.draws.get(); }
 
-    // Where the gpu::EmitterCorners of the polygons begin in the buffer, in bytes. If there are
+    // The offset of the gpu::EmitterCorners of the polygons in the buffer, in bytes. If there are
     // none, at least as many bytes as one element follow.
     VkDeviceSize cornersOffset() const { return cornersOffsetOf(records_.size()); }
 
@@ -86,8 +86,8 @@ private:
         uint64_t version = 0;
     };
     Buffers createBuffers(VkDeviceSize bytes) const;
-    // Whether cull_emitters is run for so many bytes of emitters. If a storage buffer cannot hold
-    // them, all are drawn.
+    // Tells whether cull_emitters is run for so many bytes of emitters. If a storage buffer cannot
+    // hold them, all are drawn.
     bool culls(VkDeviceSize bytes) const
     {
         return culls_ && bytes <= device_->limits.maxStorageBufferRange;

@@ -70,7 +70,7 @@ public:
     // grows. Throws gpu::Failure; then the previous set stays.
     void setEmitters(std::span<const CndLight> lights, const double origin[3]);
 
-    // Whether frames leave out the emitters of the present set that cover no sample.
+    // Tells whether frames leave out the emitters of the present set that cover no sample.
     bool cullsEmitters() const;
     // If so, the draws of the last frame of `slot`, a VkDrawIndirectCommand each.
     std::vector<DrawRange> emitterDraws(uint32_t slot) const;

@@ -49,7 +49,7 @@ struct TextureRef {
                                               // 1))
 };
 
-// Which fragments of a surface are drawn; the values are those of COVERAGE_* (shared/raster.h).
+// The fragments of a surface that are drawn; the values are those of COVERAGE_* (shared/raster.h).
 enum class Coverage : uint32_t {
     Full,
     // Fragments with a coverage of at least alphaCutoff. Without mip levels the edge is only as

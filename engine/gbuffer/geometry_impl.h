@@ -15,7 +15,8 @@ namespace candelabra::gbuffer
 // Descriptor set 0 of the mesh shaders: the union of the bindings of both stages.
 std::vector<gpu::ReflectedBinding> meshBindings();
 
-// What cull_triangles reads and writes. Without pieces it is not run, and the buffers are empty.
+// The buffers that cull_triangles reads and writes. Without pieces it is not run, and the buffers
+// are empty.
 struct TriangleTest {
     uint32_t pieceCount = 0;
     gpu::Buffer corners; // texel buffer

@@ -14,14 +14,14 @@ namespace candelabra::gbuffer
 
 struct Level {
     std::vector<uint32_t> indices;
-    // How far the level is from the mesh, in units of object space: no vertex of the mesh is
+    // The distance of the level from the mesh, in units of object space: no vertex of the mesh is
     // farther from the level, and no middle of an edge or of a triangle of the level is farther
     // from the mesh. A vertex attribute that is off by x at a vertex of the mesh counts as far as
     // levels.cpp says.
     float error;
 };
 
-// Which vertex attributes are drawn.
+// The vertex attributes that are drawn.
 enum class Attributes { Normals, All };
 
 // Makes the coarser levels of a mesh, finest first, with errors that do not fall; none for meshes

@@ -14,8 +14,8 @@
 namespace candelabra::gbuffer
 {
 
-// Whether triangles and emitters that cover no sample are left out before they are rasterised. It
-// pays on llvmpipe alone, which sets up triangles in one thread of the CPU.
+// Tells whether triangles and emitters that cover no sample are left out before they are
+// rasterised. That pays off only on llvmpipe, which sets up triangles in one thread of the CPU.
 inline bool cullsTriangles(const gpu::Device& device)
 {
     return device.lanesAreCpuVector;

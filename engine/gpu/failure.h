@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the engine reports errors inside: it throws one exception type, which guard() catches at the
+// Reports errors inside the engine: it throws one exception type, which guard() catches at the
 // C ABI, so that nothing is thrown across it.
 #pragma once
 
@@ -30,9 +30,9 @@ CndResult resultOf(VkResult result) noexcept;
 std::string resultName(VkResult result);
 
 // Throws a Failure if `result` is an error. The sentence begins with `action` and `name`, such as
-// "creating image " and the image's name. They are put together only then: an argument that had to
-// be allocated could throw after the call of Vulkan whose object nobody owns yet, because the order
-// in which arguments are evaluated is not specified.
+// "creating image " and the image's name. They are concatenated only then. An argument that
+// had to be allocated could throw after the Vulkan call, while nothing owns the new object yet,
+// because the order in which arguments are evaluated is not specified.
 void check(VkResult result, std::string_view action, std::string_view name = {});
 
 // The fail functions throw a Failure with the result code of their name.

@@ -3,7 +3,7 @@
 // through the host's vkGetInstanceProcAddr.
 #pragma once
 
-// What is asked about the physical device, before and after there is a device.
+// Functions that query the physical device, before and after there is a device.
 #define CND_INSTANCE_FUNCTIONS(X)                                                                  \
     X(EnumerateDeviceExtensionProperties)                                                          \
     X(GetDeviceProcAddr)                                                                           \
@@ -61,8 +61,8 @@
     X(MapMemory)                                                                                   \
     X(UpdateDescriptorSets)
 
-// What only the raster pass and the program call; some are part of Vulkan 1.3. The pointers are
-// null in devices of modules.
+// Functions that only the raster pass and the program call; some are part of Vulkan 1.3. The
+// pointers are null in devices of modules.
 #define CND_RASTER_FUNCTIONS(X)                                                                    \
     X(CmdBeginRendering)                                                                           \
     X(CmdBindIndexBuffer)                                                                          \

@@ -11,7 +11,7 @@
 namespace candelabra::gpu
 {
 
-// What shaders do with a storage image.
+// The access of shaders to a storage image.
 enum class StorageUse { Write, ReadAndWrite };
 
 // Throws Failure if kernels cannot use storage images of `format` so. Formats that SPIR-V has no

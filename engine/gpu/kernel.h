@@ -16,7 +16,7 @@
 namespace candelabra::gpu
 {
 
-// What a module needs to record commands of one frame.
+// Everything that a module needs to record commands of one frame.
 struct Frame {
     const Device& device;
     VkCommandBuffer cmd;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the engine needs of a device, and which of its parts need it.
+// The features that the engine needs of a device, and the parts that need them.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ constexpr Parts lightingModule = CND_MODULE_LIGHTING_BIT,
                 environmentModule = CND_MODULE_ENVIRONMENT_BIT,
                 exposureModule = CND_MODULE_EXPOSURE_BIT;
 constexpr Parts allModules = lightingModule | environmentModule | exposureModule;
-// The default raster pass, and all that the program does besides calling the modules.
+// The default raster pass, and everything that the program does apart from calling the modules.
 constexpr Parts rasterPass = 1u << 31;
 
 // Returns how many storage buffers a kernel of the parts may have. A host's descriptor set adds its

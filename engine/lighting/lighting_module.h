@@ -20,7 +20,7 @@ public:
     void addPipelines(const CndLightingPipelines& added);
     VkDescriptorSetLayout forwardLayout() const; // throws gpu::Failure when there is none
 
-    // What views need of the module. It must outlive them.
+    // The parts of the module that views need. They must outlive the views.
     const Module& module() const { return module_; }
     // The buffers of the views added here grow with the light set.
     void add(View* view) { views_.push_back(view); }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many lights a device can take, and from which kind of buffer its kernels read them.
+// The number of lights that a device can take, and the kind of buffer from which its kernels read
+// them.
 #pragma once
 
 #include "gpu/device.h"

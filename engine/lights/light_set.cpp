@@ -299,7 +299,7 @@ uint32_t LightSet::capacityFor(uint32_t count) const
 }
 
 // Replaces the store by a larger one unless the capacity stays. `keepRecords`: the next recording
-// copies the old records into the new ones; otherwise all lights are uploaded anew.
+// copies the old records into the new ones; otherwise all lights are uploaded again.
 void LightSet::grow(uint32_t capacity, bool keepRecords)
 {
     if (capacity == capacity_)

@@ -31,8 +31,9 @@ public:
     // Throws gpu::Failure naming `call` and an id that no light has, or that is given twice.
     void check(const char* call, std::span<const CndLightId> ids);
 
-    // Where records wait for their upload. It is written in order where many are written, whole
-    // records at a time, and never read: it may be memory that the CPU does not cache.
+    // The memory in which records wait for their upload. It is written in order where many are
+    // written, whole records at a time, and never read: it may be memory that the CPU does not
+    // cache.
     struct Staging {
         std::span<gpu::LightRecord> records;
         std::span<uint32_t> places; // by staged record: the index of the host's record

@@ -13,7 +13,7 @@
 namespace candelabra::lighting
 {
 
-// What some lights are together.
+// Properties of a group of lights.
 struct LightSummary {
     LightTypeCounts types{};
     InfluenceBoxes boxes = influenceBoxesOf({});

@@ -27,8 +27,8 @@ constexpr double largestCoordinate = 1;
 constexpr double largestDent = 1e-6; // how far a corner may be outside an edge
 constexpr double smallestEdge = 1e-5;
 constexpr double smallestArea = 1e-4;
-// How far the corners of cndPolygonFromCorners may be from their plane, relative to the longest
-// edge.
+// The largest distance of the corners of cndPolygonFromCorners from their plane, relative to the
+// longest edge.
 constexpr double largestHeight = 1e-4;
 
 constexpr const char* wrongCount = "a polygon must have 3 to 8 corners";
@@ -113,7 +113,7 @@ PlacedPolygon placePolygon(std::span<const glm::dvec3> corners)
 
 // Limits of outlinePolygon, relative to the length of the polygon.
 constexpr double largestThinWidth = 0.1;
-constexpr double samePlace = 1e-4; // corners on both sides that are less apart divide them alike
+constexpr double samePlace = 1e-4; // corners of both sides that are closer count as one place
 
 // One of the two sides between the ends of the longest diagonal: corners in the order of x, which
 // goes along the diagonal.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The corners of the polygon lights: which of them are in use, and their way to the device. The
+// The corners of the polygon lights: which of them are in use, and how they reach the device. The
 // record of a light holds the index of its polygon here, so a polygon stays at its index while the
 // records of lights move. Without polygons this has no memory.
 #pragma once

@@ -265,9 +265,10 @@ LobeIntegral arcDomainCapsule(const SurfacePoint& surface, double alpha, const g
     const glm::dvec3 outward = across / distance, side = glm::cross(axis, outward);
     const double sine = radius / distance, cosine = std::sqrt((1 - sine) * (1 + sine));
     std::vector<Curve> outline;
-    // At either end: the tangent plane with the normal sine outward +- cosine side (towards the
-    // capsule), then the rim of the sphere from that plane to the other one. `sign` is that of the
-    // plane and of the direction along the axis, towards the other end.
+    // The outline has four arcs. A plane through the receiver touches the capsule on either side;
+    // its normal sine * outward + sign * cosine * side points towards the capsule. Each turn of the
+    // loop adds the arc along one of these planes, from one end to the other, and then the rim of
+    // the sphere at that end, up to the other plane.
     for (const double sign : {1.0, -1.0}) {
         const glm::dvec3 inward = sine * outward + sign * cosine * side;
         const glm::dvec3& from = sign > 0 ? end1 : end0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the two lobes of a material share the light. In double precision.
+// Divides the light between the two lobes of a material, in double precision.
 #pragma once
 
 #include "candelabra/candelabra.h"

@@ -148,7 +148,7 @@ Hit surfaceAt(const ObjectHit& nearest, const Ray& ray)
     return hit;
 }
 
-// What a pixel shows: its own luminance, and the surface there, if any, that lights illuminate.
+// The content of a pixel: its own luminance, and the surface there, if any, that lights illuminate.
 struct Seen {
     glm::dvec3 luminance{0};
     std::optional<SurfacePoint> surface;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the integrators of area lights share: their result, and directions of the eye.
+// The integrators of area lights share this: their result, and directions of the eye.
 #pragma once
 
 #include <algorithm>

@@ -22,8 +22,8 @@ LightResponse truthOfCap(const SurfacePoint& surface, double alpha, const Sphere
                          double relative);
 
 // Returns the response to an area light of luminance 1, whatever its emission; without the window.
-// What a receiver inside an emitter, in its plane or at its back sees is said in truth.cpp, type by
-// type. With alpha = 0 the specular lobe is left out (a = b = 0). Punctual and unknown types throw
+// truth.cpp says, type by type, what a receiver inside an emitter, in its plane or at its back
+// sees. With alpha = 0 the specular lobe is left out (a = b = 0). Punctual and unknown types throw
 // std::invalid_argument.
 LightResponse truthResponse(const SurfacePoint& surface, double alpha, const CndLight& light,
                             const glm::dvec3& lightOrigin, double relative);

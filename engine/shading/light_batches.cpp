@@ -23,7 +23,7 @@ uint32_t loopIterations(uint32_t lightType, CndSpecularMethod method, uint32_t s
 
 } // namespace
 
-// Shading a list takes at most 5 loop iterations per light besides those inside its evaluation: one
+// Shading a list takes at most 5 loop iterations per light outside of its evaluation: one
 // for the test, and one in each of the four loops that evaluate (the invocations that run together
 // may each need another loop). The exits of the loops of a block take up to 8 per 32 lights.
 uint32_t lightsPerBatch(const gpu::Device& device, uint32_t loopIterations)

@@ -89,8 +89,8 @@ uint32_t ShadeKernels::add(uint32_t lightTypes, uint32_t methods, uint32_t shadi
     return created;
 }
 
-// Returns the jobs whose pipelines the request needs, together with what is there and what other
-// threads are making. Some of them may have been done.
+// Returns the jobs whose pipelines the request needs, beside the existing ones and those that other
+// threads are making. Some of the jobs may have been done.
 std::vector<ShadeKernels::Job> ShadeKernels::jobsOf(const Request& request) const
 {
     uint32_t types = knownTypes_.load() | request.lightTypes;

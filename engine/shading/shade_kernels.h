@@ -117,7 +117,7 @@ private:
     std::list<Request> running_;
     // Light types that have pipelines for all that frames may ask for.
     std::atomic<uint32_t> knownTypes_{0};
-    // What frames may ask for, as CndShadingBits by method: all pipelines for it have been made.
+    // The shading that frames may ask for, as CndShadingBits by method. All its pipelines exist.
     std::atomic<uint32_t> allowed_[CND_SPECULAR_METHOD_COUNT] = {};
     Slot slots_[CND_LIGHT_TYPE_COUNT][CND_SPECULAR_METHOD_COUNT];
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the G-buffer of a host is read: checks of its layout, and the layout and images as
+// Prepares the reading of a host's G-buffer: checks of its layout, and the layout and images as
 // kernels/common/read_gbuffer.glsl takes them.
 #pragma once
 
@@ -46,7 +46,7 @@ public:
     uint32_t code() const { return code_; }
     const CndGBufferDesc& desc() const { return desc_; }
     float dielectricF0() const;
-    // Whether the depth image holds depth of the frame's projection.
+    // Tells whether the depth image holds depth of the frame's projection.
     bool depthIsProjected() const { return desc_.depthKind == CND_DEPTH_PROJECTED; }
 
     // Throws gpu::Failure if an image view that kernels read is null, or cannot be read in the
@@ -86,7 +86,8 @@ public:
         return v;
     }
 
-    // The first call records a barrier that makes the stand-in for textures of integers readable.
+    // The first call records a barrier that makes the placeholder for textures of integers
+    // readable.
     void record(const gpu::Frame& frame) noexcept;
 
 private:

@@ -74,7 +74,7 @@ HostKernels::HostKernels(const CndHostKernels& given, CndGBufferLayout layout)
         const bool usesSet = std::exchange(reflection.usesHostSet, false);
         if (reflection != gpu::reflect(replaced))
             failKernels(std::string("kernel ") + code.name +
-                        " has other bindings or parameters than this version's: compile it anew");
+                        " has other bindings or parameters than this version's: compile it again");
         // `spirv` points to the words. They stay where they are when the vector is moved.
         const gpu::Spirv spirv{replaced.name, words};
         kernels_.push_back({&replaced, std::move(words), spirv, usesSet});

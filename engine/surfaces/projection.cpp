@@ -17,8 +17,8 @@ namespace candelabra::surfaces
 namespace
 {
 
-// How depth depends on the distance along the view direction in a perspective view:
-// farEnd + slope / distance.
+// In a perspective view, depth is farEnd + slope / distance, with the distance along the view
+// direction.
 struct DepthOverDistance {
     float farEnd, slope;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the depth image of a frame holds (CndDepthKind), and the projection with which kernels turn
+// The content of a frame's depth image (CndDepthKind), and the projection with which kernels turn
 // it into positions.
 #pragma once
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the host's own shaders bind to light points by the lights of a view (lib/forward.glsl).
+// The bindings with which the host's own shaders light points by the lights of a view
+// (lib/forward.glsl).
 #pragma once
 
 #include "gpu/kernel.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The passes of a frame: which of them its content needs, and the reason why each other is left
-// out.
+// Decides which passes the content of a frame needs, and why each of the others is left out.
 #pragma once
 
 #include <array>

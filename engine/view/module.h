@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all views of a lighting module share: its pipelines, its lights, its table, and the
+// All views of a lighting module share this: its pipelines, its lights, its table, and the
 // description that it was created with. Lighting owns all of this and passes it to each view.
 #pragma once
 

@@ -143,7 +143,7 @@ void View::recordPasses(const gpu::Frame& f, const FramePlan& p, const FramePass
 
 void View::recordProjectDepth(const gpu::Frame& f, const FramePlan& p) const noexcept
 {
-    f.layoutBarrier(depth_.image.get(), VK_IMAGE_LAYOUT_GENERAL); // all of it is written anew
+    f.layoutBarrier(depth_.image.get(), VK_IMAGE_LAYOUT_GENERAL); // all of it is overwritten
     module_.kernels.projectDepth.dispatch(
         f, sets_.projectDepth.set(f.slot),
         {surfaces::storedDepth(module_.gbuffer.desc(), p.frame.camera, p.frame.clearDepth,
@@ -275,7 +275,7 @@ void View::recordUnlisted(const gpu::Frame& f, const FramePlan& p, uint32_t type
             .tree = p.trees[type]});
     if (module_.device.maxLoopIterations != UINT32_MAX) {
         // Eight pixels of a row may belong to four clusters, whose walks run one after the other if
-        // the device runs these pixels together. Besides, finding a light takes about as many loop
+        // the device runs these pixels together. Finding a light also takes about as many loop
         // iterations as evaluating it.
         const uint32_t largest =
             std::max(lightsPerBatch(p, type) / (2 * gpu::SLICES), gpu::TREE_WIDTH);

@@ -93,7 +93,7 @@ void View::makeRoom(uint32_t lightCapacity, LightTypeCounts types)
 {
     const gpu::Device& device = module_.device;
     const VkDeviceSize lights = lightCapacity, polygons = types[CND_LIGHT_POLYGON];
-    lists_ = {}; // the next frame makes its lists anew, since buffers may be new
+    lists_ = {}; // the next frame makes new lists, since buffers may be new
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         types[type] += module_.desc.lightTypes >> type & 1;
     clusters_.grow(lightCapacity, types);

@@ -33,8 +33,8 @@ public:
     void makeRoom(uint32_t lightCapacity, LightTypeCounts types);
 
 private:
-    // What the lists of a frame depend on besides its surfaces: a frame may reuse the lists of the
-    // previous one if these values are the same.
+    // The values on which the lists of a frame depend, apart from its surfaces. A frame may reuse
+    // the lists of the previous one if they are the same.
     struct ListsKey {
         uint64_t lightSet = 0; // 0: there are no lists
         CndSpecularMethod method = CND_SPECULAR_DEFAULT;

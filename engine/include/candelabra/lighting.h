@@ -109,8 +109,9 @@ typedef enum CndPixelClass {
     CND_PIXEL_CLASS_MAX_ENUM = 0x7FFFFFFF
 } CndPixelClass;
 
-// The pipelines that frames need besides those of a specular method and of light types. Every frame
-// needs one of the first two bits. CND_SHADING_COUNT_PAIRS_BIT is in addition to the first.
+// The pipelines that frames need in addition to those of a specular method and of light types.
+// Every frame needs one of the first two bits. CND_SHADING_COUNT_PAIRS_BIT is in addition to the
+// first.
 typedef enum CndShadingBits {
     CND_SHADING_CLUSTERED_BIT = 1,   // CND_CULLING_CLUSTERED
     CND_SHADING_BRUTE_BIT = 2,       // CND_CULLING_BRUTE
@@ -238,7 +239,7 @@ typedef struct CndLightingFrame {
     // With CND_CULLING_BRUTE: the pixels to shade; zero extent: all pixels. No dispatch evaluates
     // more than 2^28 pairs of pixel and light (with more than four million lights: the pairs of 64
     // pixels), so none runs for seconds. If the system also limits how long a submission runs,
-    // record the frame as several frames with one rectangle each, and submit each by itself. The
+    // record the frame as several frames with one rectangle each, and submit each separately. The
     // image has the same bits.
     VkRect2D bruteRect;
     // VK_TRUE: also count (pixel, light) pairs, with one more kernel. Ignored with
@@ -366,7 +367,7 @@ typedef struct CndLightingPipelines {
 // method, it creates the pipelines of all light types that are in CndLightingDesc::lightTypes, were
 // added, or have been in a light set. For each light type, it creates those of all methods and
 // shading that frames may ask for. When the call returns, frames and light sets may use the
-// pipelines. Until then, frames go on as before.
+// pipelines. Until then, frames continue as before.
 //
 // This is the only call on a module that may run while other calls on the same module run: those
 // that record, read statistics, set or edit lights, create or destroy views, and this call itself.
