@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bindings of the benchmark kernels, and the evaluation of the lights bound there: the shipping one or,
-// with LTC, that of a rival.
+// with LTC, linearly transformed cosines.
 #ifdef LTC
 #define LIGHT_FAMILY_POLYGON
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // An upper bound of the specular response to a light, for sweep_inputs.comp. It must not be below the
-// exact response, and it should be far below 1 wherever that is, so that a response that is far too
-// bright is noticed.
+// exact response. Where the exact response is far below 1, the bound should be too, so that a response
+// that is far too bright is noticed.
 #ifndef CND_BENCH_SPECULAR_BOUND
 #define CND_BENCH_SPECULAR_BOUND
 

@@ -94,7 +94,7 @@ vec4 sweepDirection(uint slice, SweepPoint p)
     return vec4(directionAt(p.n, randomRange(-1.0, 1.0)), s);
 }
 
-// Whether lights of the type use a field of CndLight; `types` is TYPES_WITH_*.
+// Tells whether lights of the type use a field of CndLight; `types` is TYPES_WITH_*.
 bool usesField(uint types)
 {
     return (types >> lightType & 1u) != 0u;
@@ -119,9 +119,9 @@ void makeSweepCorners(uint count, inout LightShape shape)
     shape.flags |= 1u; // index of the first shape of corners
 }
 
-// Returns the shape of a light that has a position, about `size` metres large, with axes along the
-// unit vectors u or w and cross(u, w), and with so many corners if it is a polygon. Sets the bounding
-// radius.
+// Returns the shape of a light that has a position, about `size` metres large. A flat light has axes
+// along w and cross(u, w), any other along u; u and w are unit vectors. A polygon has `corners`
+// corners. Sets the bounding radius.
 LightShape makeSweepShape(float size, vec3 u, vec3 w, float aspect, uint corners,
                           out float boundingRadius)
 {

@@ -48,7 +48,7 @@ layout(scalar, binding = CULL_TRIANGLES_DRAWS) writeonly buffer Draws
 // Samples are looked for in triangles that reach over at most so many rows or columns of pixels.
 const int SMALL_ROWS = 4;
 
-// What a piece consists of.
+// The parts of a piece.
 struct Piece {
     uint triangles; // 0: the piece is not needed in this frame
     uint firstCorner;
@@ -57,7 +57,7 @@ struct Piece {
     uint vertexOffset;
 };
 
-// How an instance maps to the image. A point at (x, y, w) = numerators * (position, 1) is in the pixel
+// Maps an instance to the image. A point at (x, y, w) = numerators * (position, 1) is in the pixel
 // (x / w, y / w).
 struct Projection {
     mat4x3 numerators;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which samples, the centres of pixels, may be inside of a box in the image.
+// Finds the samples, the centres of pixels, that may be inside of a box in the image.
 #ifndef CND_GBUFFER_SAMPLE_BOUNDS
 #define CND_GBUFFER_SAMPLE_BOUNDS
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the radii of influence for the illuminance at which the frame cuts its lights. Every lane
-// computes the next state of the history by itself.
+// computes the next state of the history for itself.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/influence.glsl"
@@ -31,8 +31,8 @@ layout(scalar, binding = CUT_LIGHTS_COUNTERS) writeonly buffer Counters
 // Squared radius of lights that no pixel shows. 0 would mean that there is no light, and 0 / 0 is NaN.
 const float NOWHERE = 1e-30;
 
-// Returns the next state. The cut falls at once to what the frame's samples allow. It rises by one step
-// per frame to what the samples of a whole period have allowed.
+// Returns the next state. The cut falls at once to the highest one that the frame's samples allow. It
+// rises by one step per frame to the highest one that the samples of a whole period have allowed.
 InfluenceState stepFrom(InfluenceState before)
 {
     const InfluenceFrame f = data.frame;

@@ -56,7 +56,7 @@ float luminance(vec3 c)
     return y;
 }
 
-// What a pixel adds to the histogram of its group.
+// The contribution of a pixel to the histogram of its group.
 struct Entry {
     uint bin;
     uint packed; // weight and fraction

@@ -7,7 +7,7 @@
 #include "shared/cluster_data.h"
 #include "lib/bounds.glsl"
 
-// The bounds of a cluster's samples, as in Cluster, with what every test derives from them.
+// The bounds of a cluster's samples, as in Cluster, and values that every test derives from them.
 struct ClusterBounds {
     Box box;
     vec3 axis;              // axis of the slab and of the cone of normals
@@ -66,9 +66,9 @@ bool lightTouches(ClusterBounds c, vec3 centre, float boundingRadius, float r2)
            coneTouches(c, centre, r, margin);
 }
 
-// Returns what the bounds tell of the height of a sphere above the horizons of the samples that its
-// light may reach: NONE_ACROSS, ALL_ABOVE or ANY_HEIGHT. It is conservative in float32. `radius`: that
-// of the sphere; `r2`: square of its radius of influence.
+// Returns what is known from the bounds about the height of a sphere above the horizons of the samples
+// that its light may reach: NONE_ACROSS, ALL_ABOVE or ANY_HEIGHT. It is conservative in float32.
+// `radius`: that of the sphere; `r2`: square of its radius of influence.
 uint heightOfSphere(ClusterBounds c, vec3 centre, float radius, float r2)
 {
     // Let a be the axis and v the vector from a sample to the centre, with a.v >= lowest > 0 and

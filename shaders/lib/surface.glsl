@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a G-buffer stores of a surface.
+// The data of a surface that a G-buffer stores.
 #ifndef CND_LIB_SURFACE
 #define CND_LIB_SURFACE
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Adds up frames whose cameras are shifted by parts of a pixel: their scene radiance, and the light
-// that their display images stand for. Then turns the sums into means.
+// that their display images represent. Then turns the sums into means.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/tone_map.glsl"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds a level of the bloom to the next finer one. Its weights are those of bloom_down the other way
-// round, so that every coarse texel spreads all that it has.
+// Adds a level of the bloom to the next finer one. Its weights are those of bloom_down,
+// transposed, so that every coarse texel spreads all of its light.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

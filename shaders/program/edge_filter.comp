@@ -22,7 +22,7 @@ layout(binding = EDGE_FILTER_OUTPUT, rgba8) uniform writeonly image2D outputImag
 // An edge is where luma differs by this share of the largest luma around, and by this much.
 const float LEAST_CONTRAST = 0.125;
 const float LEAST_DIFFERENCE = 0.04;
-// How far the ends of an edge are searched, in pixels.
+// The distance up to which the ends of an edge are searched, in pixels.
 const int REACH = 12;
 // The largest share of its neighbour that a pixel gets because it differs from all its neighbours, as
 // pixels of surfaces do that are thinner than a pixel.
@@ -46,10 +46,10 @@ vec3 lumasOf(ivec2 at, vec3 colour)
                 lumaOf(colourAt(at + ivec2(1, 0))));
 }
 
-// Follows an edge between a pixel and its neighbour `across` in steps of one pixel. It goes on while
-// the mean luma of the two sides differs from `mean` by less than `change`. Returns the number of
-// steps to the first pixel that is no longer part of the edge. `difference` receives by how much the
-// mean luma at that pixel differs from `mean`.
+// Follows an edge between a pixel and its neighbour `across` in steps of one pixel. It continues while
+// the mean luma of the two sides differs from `mean` by less than `change`. Returns the number of steps
+// to the first pixel that is no longer part of the edge. `difference` receives by how much the mean
+// luma at that pixel differs from `mean`.
 int followEdge(ivec2 at, ivec2 along, ivec2 across, float mean, float change, out float difference)
 {
     int steps = 0;

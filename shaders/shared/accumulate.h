@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What crosses between the program's accumulation of frames and its kernel.
+// Data that the program's accumulation of frames and its kernel share.
 #ifndef CND_SHARED_ACCUMULATE_H
 #define CND_SHARED_ACCUMULATE_H
 
@@ -16,7 +16,8 @@ const uint ACCUMULATE_DISPLAY_SUM = 3u; // of linear light, not of the encoded v
 const uint ACCUMULATE_DISPLAY = 4u;     // receives the mean of the display images
 struct AccumulateParams {
     uvec2 size;
-    // Where in its pixels the frame sees the scene, from -0.5 to 0.5 pixels from their centres.
+    // The place in its pixels where the frame sees the scene, from -0.5 to 0.5 pixels from their
+    // centres.
     vec2 offset;
     uint index; // of the frame; the first one starts new sums
     // 0: a frame is added. Otherwise the means of so many frames replace radiance and display

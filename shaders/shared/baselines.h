@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What crosses between `candelabra bench culling` and its kernels. The baselines are other ways to
+// Data that `candelabra bench culling` and its kernels share. The baselines are other ways to
 // cull lights. They shade with the shipping functions, so that only culling and lists differ.
 #ifndef CND_SHARED_BASELINES_H
 #define CND_SHARED_BASELINES_H

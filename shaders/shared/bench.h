@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Records that cross between the program's benchmarks (tools/candelabra/measure) and their kernels
+// Records that the program's benchmarks (tools/candelabra/measure) share with their kernels
 // (shaders/bench), which measure the shipping shader functions.
 #ifndef CND_SHARED_BENCH_H
 #define CND_SHARED_BENCH_H

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What crosses between the program's bloom and its kernels.
+// Data that the program's bloom and its kernels share.
 //
 // Along each axis, a level of n texels is followed by a coarser one of m = ceil(n / 2) texels, over
 // the same length. Lengths are counted in units of which a fine texel has m and a coarse one n, so

@@ -60,8 +60,8 @@ struct TileClusters {
     uint first;
     uint lowest, highest; // range of the depth bits; lowest > highest: no sample
     uint shift;
-    // Which work lists hold the tile: a bit per light type from UNLISTED_BITS on and from LIT_BITS
-    // on. The tile's class, CLASS_*, is stored from CLASS_BITS on.
+    // The work lists that hold the tile: a bit per light type from UNLISTED_BITS on and from
+    // LIT_BITS on. The tile's class, CLASS_*, is stored from CLASS_BITS on.
     uint onLists;
 };
 GPU_SIZE(TileClusters, 20)
@@ -99,7 +99,7 @@ const uint TILE_ROW = 256u; // one group per tile
 const uint SPLIT_ROW = 128u;
 const uint SLICE_ROW = SPLIT_ROW * SLICES;
 
-// --- tile_clusters: bounds of each tile. By itself, a lane makes those of a tile; together,
+// --- tile_clusters: bounds of each tile. A lane alone makes those of a tile; together,
 // TILE_SIZE lanes do.
 const uint TILE_CLUSTERS_GROUP = 128u;
 const uint TILE_CLUSTERS_DEPTH = 0u;
@@ -114,7 +114,7 @@ struct TileClustersParams {
 };
 GPU_SIZE(TileClustersParams, 16)
 
-// --- split_tiles: bounds of the slices of deep tiles; bindings of tile_clusters. By itself, a lane
+// --- split_tiles: bounds of the slices of deep tiles; bindings of tile_clusters. A lane alone
 // makes the slices of a tile; together, TILE_SIZE lanes make a slice.
 const uint SPLIT_TILES_GROUP = 64u;
 

@@ -16,7 +16,7 @@ struct DeviceLight {
 };
 GPU_SIZE(DeviceLight, 32)
 
-// How many lights were valid and taken, and how many were not valid.
+// The numbers of lights that were valid and taken, and that were not valid.
 struct DeviceLightCounts {
     uint taken, rejected;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What crosses between the program's edge filter and its kernel.
+// Data that the program's edge filter and its kernel share.
 #ifndef CND_SHARED_EDGE_FILTER_H
 #define CND_SHARED_EDGE_FILTER_H
 

@@ -44,11 +44,10 @@ struct ExposureState {
     uint owner;     // AdaptExposureParams::owner of the frame that wrote it
 };
 GPU_SIZE(ExposureState, 16)
-// The number of the first exposure object. Each object has its own number, and takes a state with
-// another number for no history, because the memory may come from an object destroyed before. The
-// numbers count up from a value that fresh memory hardly holds. So the first frame of an object
-// that is executed starts without a history, even if frames before it were recorded but never
-// submitted.
+// The number of the first exposure object. Each object has its own number. It treats a state with
+// another number as no history, because the memory may come from a destroyed object. The numbers
+// count up from a value that fresh memory is unlikely to hold. So the first frame of an object that
+// is executed starts without a history, even if frames before it were recorded but never submitted.
 const uint EXPOSURE_FIRST_OWNER = 0xE5C0F10Eu;
 
 // --- luminance_histogram: one group per block of pixels. A group packs the count and the fraction

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What crosses between tests/gpu/test_forward.cpp and probes/forward.comp. Descriptor set 0 belongs
+// Data that tests/gpu/test_forward.cpp and probes/forward.comp share. Descriptor set 0 belongs
 // to the probe, set 1 to lib/forward.glsl.
 #ifndef CND_SHARED_FORWARD_PROBE_H
 #define CND_SHARED_FORWARD_PROBE_H

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What crosses between the program's heat maps and their kernel.
+// Data that the program's heat maps and their kernel share.
 #ifndef CND_SHARED_HEAT_MAP_H
 #define CND_SHARED_HEAT_MAP_H
 

@@ -26,7 +26,7 @@ const uint GBUFFER_CHANNEL_MASK = 15u;         // CndGBufferChannel
 const uint GBUFFER_ROUGHNESS_SHIFT = 8u;
 const uint GBUFFER_METALNESS_SHIFT = 12u;
 const uint GBUFFER_F90_SHIFT = 16u;
-// What the depth image holds, in every layout.
+// The content of the depth image, in every layout.
 const uint GBUFFER_DEPTH_KIND_SHIFT = 20u;
 const uint GBUFFER_DEPTH_KIND_MASK = 3u; // CndDepthKind
 const uint DEPTH_PROJECTED = 0u;
@@ -34,7 +34,7 @@ const uint DEPTH_LINEAR = 1u;
 const uint DEPTH_POSITION_VIEW = 2u;
 const uint DEPTH_POSITION_WORLD = 3u;
 
-// What turns a texel of a depth image that holds no projected depth into the z of view space.
+// The values that turn a texel of a depth image without projected depth into the z of view space.
 struct StoredDepth {
     vec4 z;      // z = dot(z, vec4(stored position, 1)); z.x is the factor of a linear depth
     float clear; // value where there is no surface: of the linear depth, or of the position's alpha

@@ -8,7 +8,7 @@
 
 GPU_BEGIN
 
-// What the last image of the host's G-buffer holds.
+// The content of the last image of the host's G-buffer.
 const uint HOST_SCENE_LINEAR = 0u; // linear depth
 const uint HOST_SCENE_VIEW = 1u;   // positions in view space
 const uint HOST_SCENE_WORLD = 2u;  // positions in world space

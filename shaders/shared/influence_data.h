@@ -11,8 +11,8 @@ GPU_BEGIN
 // All lights of a frame are cut at one illuminance: a light of peak intensity I reaches to the
 // distance d where I / d^2 falls to it. The candidates for this illuminance are the lower ends of
 // bins of exposed illuminance (illuminance times exposure). The bins are half octaves from
-// 2^INFLUENCE_FINEST on; below that are a few bins of two octaves, for illuminances that nobody can
-// see. Cut b leaves out the bins 0 .. b - 1; cut 0 leaves out nothing.
+// 2^INFLUENCE_FINEST on; below that are a few bins of two octaves, for illuminances that are
+// invisible. Cut b leaves out the bins 0 .. b - 1; cut 0 leaves out nothing.
 const uint INFLUENCE_BINS = 40u;
 const uint INFLUENCE_COARSE_BINS = 6u;
 const float INFLUENCE_FINEST = -22.0f;
@@ -24,7 +24,7 @@ const uint INFLUENCE_SLOTS = 41u;
 // The image is divided into squares with sides of `spacing` pixels. In every frame another pixel of
 // each square is measured. The squares grow with the image, so that there are at most
 // INFLUENCE_MAX_SAMPLES of them. After a period, spacing^2 frames, all pixels have been measured,
-// and cuts may rise to what all of them allowed.
+// and cuts may rise as far as all of them allowed.
 const uint INFLUENCE_MAX_SAMPLES = 4096u;
 const uint INFLUENCE_MIN_SPACING = 8u;
 // The first frame of a history measures the pixels of up to this many frames at once. Later frames

@@ -54,7 +54,7 @@ const uint LIGHT_TWO_SIDED = 0x80000000u;
 const uint LIGHT_OF_DEVICE = 0x80000000u;
 const uint ALL_LAYERS = 0xFFFFu;
 
-// What a polygon has besides its LightRecord.
+// The data of a polygon that its LightRecord does not hold.
 struct PolygonRecord {
     vec2 corners[MAX_RECORD_CORNERS]; // along axisU and axisV; the last corner fills the rest
     uint count;                       // of corners
@@ -91,9 +91,9 @@ GPU_SIZE(TreeShape, 12)
 const uint CLASS_ANY = 0u;
 const uint CLASS_DIFFUSE = 1u; // no surface has a specular lobe
 const uint TILE_CLASSES = 2u;
-// Tiles are told apart by how high their spheres are. The height of a sphere at a sample is how far
-// its centre is above the sample's tangent plane, the horizon. A tile's height says what holds at
-// every sample of the tile, for every sphere whose light may reach the sample. Each height has a
+// Tiles are distinguished by how high their spheres are. The height of a sphere at a sample is how
+// far its centre is above the sample's tangent plane, the horizon. A tile's height says what holds
+// at every sample of the tile, for every sphere whose light may reach the sample. Each height has a
 // kernel without the evaluations that it rules out, and a work list per class of tiles. All buffers
 // of tiles begin with a list for each height and class, at height * TILE_CLASSES + CLASS_*. Those
 // of tiles with a surface and of unlisted tiles have room in the lists of ANY_HEIGHT only.

@@ -20,14 +20,15 @@ struct MarginsProbeInput {
 };
 GPU_SIZE(MarginsProbeInput, 88)
 
-// What became of the lights that reach a sample where another pipeline may place it.
+// Counts of the lights that reach a sample where another pipeline may place it.
 struct MarginsProbeOutput {
     uint reaching;
     uint missed;             // left out by the tests of clusters or of nodes of the light tree
     uint missedIfNotWidened; // left out by the tests of bounds without margins
-    // `tooHigh` counts spheres that are a millionth too large to be so high at one sample as the
-    // bounds say that they are at all (heightOfSphere). `high` counts spheres that are 1% smaller
-    // than the largest sphere that is so high at the sample, and of which the bounds say it.
+    // The bounds give a sphere a height that holds at all samples (heightOfSphere). `tooHigh`
+    // counts spheres that are a millionth too large to have that height at one sample. `high`
+    // counts spheres that are 1% smaller than the largest sphere with that height at the sample,
+    // and to which the bounds give it.
     uint tooHigh, high;
 };
 GPU_SIZE(MarginsProbeOutput, 20)

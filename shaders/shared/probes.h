@@ -33,7 +33,7 @@ struct SphereProbeOutput {
 };
 GPU_SIZE(SphereProbeOutput, 12)
 
-// What the functions of lib/portable_math.glsl return for a positive float.
+// The results of the functions of lib/portable_math.glsl for a positive float.
 struct PortableProbeOutput {
     float reciprocal, inverseSqrt, root;
 };

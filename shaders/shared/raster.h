@@ -191,7 +191,8 @@ struct MeshParams {
 };
 GPU_SIZE(MeshParams, 128) // as much as every device takes
 
-// Which fragments of a mesh are drawn: all, those of a coverage above a cutoff, or a share of them.
+// The fragments of a mesh that are drawn: all, those of a coverage above a cutoff, or a share of
+// them.
 const uint COVERAGE_FULL = 0u;
 const uint COVERAGE_MASKED = 1u;
 const uint COVERAGE_DITHERED = 2u;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A rival of the engine's closed forms: linearly transformed cosines (Heitz, Dupuy, Hill and Neubelt
-// 2016, "Real-time polygonal-light shading with linearly transformed cosines"), with our own fit of the
-// lobe. Its maps keep the horizon in place. So lights are cut at the true horizon, no light
+// Linearly transformed cosines (Heitz, Dupuy, Hill and Neubelt 2016, "Real-time polygonal-light shading
+// with linearly transformed cosines"), with our own fit of the lobe, to compare with the engine's
+// closed forms. Its maps keep the horizon in place. So lights are cut at the true horizon, no light
 // leaks from below it, and the response to a light that fills the hemisphere is the lobe's directional
 // albedo.
 #ifndef CND_BENCH_LTC_LOBES
@@ -23,7 +23,7 @@ struct LtcLobe {
     float determinant2; // squared determinant of the map
 };
 
-// What does not depend on the light.
+// The values that do not depend on the light.
 struct LtcPoint {
     vec3 n;
     LtcLobe lobe;

@@ -11,7 +11,7 @@
 
 const uint CLUSTERS_OF_GROUP = gl_WorkGroupSize.x / TILE_SIZE;
 
-// What the rows find the lowest of. The highest z, for instance, is the lowest of -z.
+// The values of which the rows find the lowest. The highest z, for instance, is the lowest of -z.
 const uint LEAST_PIXEL = 0u; // with a sample, counted row by row
 const uint LEAST_DEPTH = 1u;
 const uint LEAST_NOT_DEPTH = 2u;      // ~depth bits

@@ -15,7 +15,7 @@ layout(constant_id = SPEC_LISTS_LANES) const uint LANES = CLUSTER_LISTS_GROUP;
 
 uint lane;            // index of this lane in the group
 bool oneSubgroup;     // one subgroup holds the group
-bool ballotsAreLanes; // besides, it has no other lanes, so its ballots have a bit per lane
+bool ballotsAreLanes; // and it has no other lanes, so its ballots have a bit per lane
 
 // Only groups of several subgroups use these. Three answers take turns: the present one, the previous
 // one, which slow subgroups may still be reading, and the next one, which is 0.

@@ -20,8 +20,9 @@ ListWriter beginList()
     return ListWriter(NO_PAGE, NO_PAGE, PAGE_LIGHTS, 0u, false);
 }
 
-// Takes a page of the entry buffer, or returns NO_PAGE if none is left. The cursor does not wrap: a
-// list asks at most once more than there are pages. Page 0 is never given out, because 0 is NO_PAGE.
+// Takes a page of the entry buffer, or returns NO_PAGE if none is left. The cursor does not wrap,
+// because a list that has asked in vain does not ask again. Page 0 is never given out, because 0 is
+// NO_PAGE.
 uint reservePage()
 {
     const uint next = atomicAdd(counters.pageCursor, 1u) + 1u;

@@ -137,7 +137,7 @@ uint makeShortLists(uint firstList)
     return shortLists;
 }
 
-// Returns a short list that has been made, all but its header.
+// Returns a short list that is complete except for its header.
 ListWriter shortList(uint list)
 {
     const uint page = setPage[list], found = setFound[list];

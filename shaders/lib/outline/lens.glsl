@@ -66,7 +66,7 @@ void addPiece(inout Outline k, OutlinePoint a, OutlinePoint b, ArcControl contro
     const vec3 sum = directionA + directionB, chord = directionB - directionA;
     const float ii = a.i * b.i;
     const float root = sqrt(ii);
-    // What needs the control point comes first, so that it occupies no registers later.
+    // The parts that need the control point come first, so that it occupies no registers later.
     const vec3 middle = control.scale * k.wc + control.dw;
     const float weight2 = root * dot(middle, sum); // times 2 q2
     const float skew2 = root * dot(middle, chord);
@@ -195,8 +195,8 @@ float turnOf(Outline k, OutlinePoint a, OutlinePoint b, ArcControl control)
 }
 
 // Adds an arc. The number of its pieces differs between lanes. Around such a loop, llvmpipe (Mesa 22.3)
-// runs a lane that is done with an outer loop once more while others go on. Callers whose count differs
-// between lanes must see to it that this turn adds nothing.
+// runs a lane that is done with an outer loop once more while others continue. Callers whose count
+// differs between lanes must ensure that this turn adds nothing.
 void addLobe(inout Outline k, OutlinePoint a, OutlinePoint b, ArcCircle circle)
 {
     const ArcControl control = controlOf(k, a, b, circle);

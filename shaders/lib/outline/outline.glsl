@@ -115,7 +115,7 @@ void addHorizon(inout Outline k)
 // enterAt notes the point `dl` (OutlinePoint::dl) where the outline comes back above the horizon, and
 // leaveAt the point where it goes below it. An edge and an arc compute their common point in different
 // ways. If it is on the horizon, rounding may let only one of them cross the horizon there. So the
-// first crossing stands for both until the other is found, and if it never is, the arc of the horizon
+// first crossing counts as both until the other is found, and if it never is, the arc of the horizon
 // between them is empty.
 void enterAt(inout Outline k, vec3 dl)
 {

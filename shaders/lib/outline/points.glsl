@@ -53,13 +53,14 @@ struct OutlinePoint {
     float i; // 1 / |w|
 };
 
-// What the evaluation of an outline is prepared for. Whoever knows that a light is easy saves time.
+// The cases for which the evaluation of an outline is prepared. A caller that knows that a light is
+// easy saves time.
 struct OutlineNeeds {
     bool across; // it may cross the horizon
     bool lobe;   // the specular response is wanted as well
     bool cuts;   // its arcs may need to be cut, or pieces of its rim halved (lens.glsl, disc_lobe.glsl)
-    // What an arc's cuts are computed from is computed at each cut, which saves registers. Otherwise it
-    // is computed once for the arc, which saves time on devices that run branches that no lane takes.
+    // The inputs of an arc's cuts are computed at each cut, which saves registers. Otherwise they are
+    // computed once for the arc, which saves time on devices that run branches that no lane takes.
     bool lateCuts;
 };
 
@@ -132,7 +133,7 @@ vec3 stretchedOffset(Outline k, OutlinePoint o)
 }
 
 // Returns w of a point from its A dl. Compilers would otherwise take the factor invD out of the sum and
-// keep A (v + lc) in registers besides wc.
+// keep A (v + lc) in registers as well as wc.
 vec3 stretchedPoint(Outline k, vec3 dw)
 {
     precise const vec3 w = k.wc + dw;

@@ -5,9 +5,9 @@
 
 #include "lib/outline/shading.glsl"
 
-// Tells whether a receiver sees a side that emits of a flat light around `centre`, relative to the
-// receiver. The light faces `normal`, of any length. Receivers in the light's plane, as far as float32
-// can tell, see none. `size`: length of the light's longest half axis.
+// Tells whether a receiver sees an emitting side of a flat light around `centre`, relative to the
+// receiver. The light faces `normal`, of any length. Receivers that float32 cannot distinguish from
+// points in the light's plane see none. `size`: length of the light's longest half axis.
 bool seesFlatLight(vec3 centre, vec3 normal, float size, bool twoSided)
 {
     const float facing = dot(normal, centre);
