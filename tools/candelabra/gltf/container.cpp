@@ -320,7 +320,7 @@ GltfDocument openGltf(const std::string& path)
     GltfContainer container = readGltfContainer(path);
     document.json = parseSceneJson(path, container.json);
     container.json.clear();
-    mendGltfJson(document);
+    repairGltfJson(document);
     document.missingExtensions = checkGltfExtensions(path, document.json, document.warnings);
     loadBuffers(document, container);
     parseWithTinyGltf(document);

@@ -82,7 +82,7 @@ GltfContainer readGltfContainer(const std::string& path);
 // Checks types, ranges, array lengths and indices of every property that the loader or tinygltf
 // reads, and the glTF version. Replaces or removes what is wrong and not needed, with warnings
 // (check.cpp), and warns of content that is not used. Sets document.used and document.lostMesh.
-void mendGltfJson(GltfDocument& document);
+void repairGltfJson(GltfDocument& document);
 
 // Reads what a "uri" stands for: base64 data, or a file in the folder of document.file or below
 // that folder. Absolute paths, "..", and schemes other than data: are errors.

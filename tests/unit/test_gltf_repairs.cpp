@@ -15,7 +15,7 @@ namespace
 
 using namespace candelabra::app;
 
-using GltfMending = GltfTest;
+using GltfRepairs = GltfTest;
 
 // Returns the scene, which must have the same surfaces as the scene without the fault.
 void expectSameSurfaces(const Scene& scene, const Scene& sound)
@@ -43,7 +43,7 @@ void writeIntegersWithAPoint(Json& value)
             writeIntegersWithAPoint(item);
 }
 
-TEST_F(GltfMending, IntegersMayBeWrittenWithAPoint)
+TEST_F(GltfRepairs, IntegersMayBeWrittenWithAPoint)
 {
     GltfBuilder b = completeGltf();
     const Scene sound = load(b);
@@ -71,7 +71,7 @@ Json& addTriangle(GltfBuilder& b, const std::vector<uint16_t>& corners = {0, 1, 
 
 // A mesh with one fault is left out, and the others are drawn. A file that has no other mesh is
 // refused, and the message names the fault.
-TEST_F(GltfMending, OneBrokenMeshDoesNotLoseTheOthers)
+TEST_F(GltfRepairs, OneBrokenMeshDoesNotLoseTheOthers)
 {
     struct Fault {
         std::function<void(GltfBuilder&, Json& mesh, Json& accessor)> add;
@@ -129,7 +129,7 @@ TEST_F(GltfMending, OneBrokenMeshDoesNotLoseTheOthers)
 }
 
 // Appends an element that nothing uses to an array of a complete file, and loads it.
-TEST_F(GltfMending, WhatNothingUsesMayBeBroken)
+TEST_F(GltfRepairs, WhatNothingUsesMayBeBroken)
 {
     const Scene sound = load(completeGltf());
     const std::pair<const char*, const char*> faults[] = {
@@ -175,7 +175,7 @@ TEST_F(GltfMending, WhatNothingUsesMayBeBroken)
     }
 }
 
-TEST_F(GltfMending, BuffersThatNothingUsesNeedNotBeThere)
+TEST_F(GltfRepairs, BuffersThatNothingUsesNeedNotBeThere)
 {
     const Scene sound = load(completeGltf());
     Json document = Json::parse(completeGltf().text());
@@ -189,7 +189,7 @@ TEST_F(GltfMending, BuffersThatNothingUsesNeedNotBeThere)
     }
 }
 
-TEST_F(GltfMending, NullCountsAsMissing)
+TEST_F(GltfRepairs, NullCountsAsMissing)
 {
     const Scene sound = load(completeGltf());
     for (const char* place : {"/extensionsUsed",
@@ -224,7 +224,7 @@ TEST_F(GltfMending, NullCountsAsMissing)
 }
 
 // JSON has no such numbers, but exporters write them.
-TEST_F(GltfMending, NumbersThatAreNotFiniteAreReplaced)
+TEST_F(GltfRepairs, NumbersThatAreNotFiniteAreReplaced)
 {
     for (const char* number : {"NaN", "Infinity", "-Infinity"}) {
         GltfBuilder b = completeGltf();
@@ -240,7 +240,7 @@ TEST_F(GltfMending, NumbersThatAreNotFiniteAreReplaced)
     }
 }
 
-TEST_F(GltfMending, MaterialsAreDrawnWithWhatIsLeftOfThem)
+TEST_F(GltfRepairs, MaterialsAreDrawnWithWhatIsLeftOfThem)
 {
     GltfBuilder b = triangleScene();
     b.json["meshes"][0]["primitives"][0]["material"] = 0;
@@ -264,7 +264,7 @@ TEST_F(GltfMending, MaterialsAreDrawnWithWhatIsLeftOfThem)
                                "used"));
 }
 
-TEST_F(GltfMending, CamerasKeepWhatIsRight)
+TEST_F(GltfRepairs, CamerasKeepWhatIsRight)
 {
     const auto loaded = [&](const char* camera) {
         GltfBuilder b = triangleScene();
@@ -298,7 +298,7 @@ TEST_F(GltfMending, CamerasKeepWhatIsRight)
 
 // The depth of an orthographic camera is linear: whatever far plane a file has, the range that is
 // drawn is that of the scene.
-TEST_F(GltfMending, FarPlanesOfOrthographicCamerasComeToTheScene)
+TEST_F(GltfRepairs, FarPlanesOfOrthographicCamerasComeToTheScene)
 {
     for (const double zfar : {20.0, 1e6, 1e7, 1e12}) {
         GltfBuilder b = triangleScene();
