@@ -72,8 +72,7 @@ def main(folder):
     empty = folder / "empty"
     empty.mkdir()
     (empty / "tools").symlink_to(root / "tools")
-    environment = os.environ | {"PATH": f"{folder / 'bin'}:{os.environ['PATH']}", "CANDELABRA_BUILD": str(folder),
-                                "XDG_CACHE_HOME": str(folder / "cache")}
+    environment = os.environ | {"PATH": f"{folder / 'bin'}:{os.environ['PATH']}", "CANDELABRA_BUILD": str(folder)}
     environment.pop("DISPLAY", None)
     known = 0
     for command in commands_of_readme():
