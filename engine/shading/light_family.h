@@ -40,16 +40,10 @@ constexpr CndSpecularMethod canonicalMethod(uint32_t lightType, CndSpecularMetho
         return method;
     if (baseFamilyOf(lightType) == gpu::FAMILY_PUNCTUAL)
         return CND_SPECULAR_POINT;
-    switch (method) {
-    case CND_SPECULAR_SAMPLED:
+    if (method == CND_SPECULAR_SAMPLED)
         return method;
-    case CND_SPECULAR_KARIS:
-    case CND_SPECULAR_POINT:
-    case CND_SPECULAR_KX:
-        return CND_SPECULAR_KARIS;
-    default:
-        return CND_SPECULAR_CONIC;
-    }
+    const bool closed = method == CND_SPECULAR_DEFAULT || isClosedForm(method);
+    return closed ? CND_SPECULAR_CONIC : CND_SPECULAR_KARIS;
 }
 
 // Throws gpu::Failure if a bit of specularMethods, a member of the struct `owner`, stands for no

@@ -32,8 +32,8 @@ struct FoundWord {
 };
 
 // Lights have no lower band (lib/outline/bands.glsl) if their height is at least this times their
-// radius. (h - r) / (h + r) >= BAND_HEIGHT leads to 1.5. It takes a little more, because the ends of a
-// light are at different distances.
+// radius. (h - r) / (h + r) >= BAND_HEIGHT means h >= 1.5 r. The limit is a little higher, because the
+// ends of a light are at different distances.
 const float ABOVE_BANDS = 1.6;
 
 // Tells whether no arc of a light's outline needs to be cut (lib/outline/lens.glsl), and no piece of a

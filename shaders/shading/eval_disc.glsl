@@ -21,9 +21,9 @@ vec2 cheapDiscSpecular(Receiver r, Light light, float scale)
     const float radius = scale * shape.radius;
     const bool twoSided = isTwoSided(shape);
     vec2 specular = vec2(0.0);
-    if (areaMethod == SPECULAR_KARIS)
+    if (specularMethod == SPECULAR_KARIS)
         specular = representativeDisc(r.p, light.toLight, shape.axisU, radius, twoSided);
-    else if (areaMethod == SPECULAR_SAMPLED)
+    else if (specularMethod == SPECULAR_SAMPLED)
         specular = sampledDisc(r.p, light.toLight, shape.axisU, radius, twoSided, r.sampleCount,
                                lightSeed(r, light.index));
     return specular;

@@ -165,9 +165,9 @@ vec3 polygonWithNeeds(Receiver r, Light given, OutlineNeeds needs)
     vec2 specular = vec2(0.0);
     if (BY_OUTLINE)
         specular = o.specular;
-    else if (areaMethod == SPECULAR_SAMPLED)
+    else if (specularMethod == SPECULAR_SAMPLED)
         specular = sampledPolygon(r.p, polygon, r.sampleCount, lightSeed(r, light.index));
-    else if (areaMethod != SPECULAR_NONE)
+    else if (specularMethod != SPECULAR_NONE)
         specular = representativePolygon(r.p, polygon);
     return diffuseResponse(r.p, o.formFactor) + schlick(r.p, specular);
 }

@@ -22,9 +22,9 @@ vec2 cheapRectangleSpecular(Receiver r, Light light, float scale)
     const vec3 v = scale * shape.axisV;
     const bool twoSided = isTwoSided(shape);
     vec2 specular = vec2(0.0);
-    if (areaMethod == SPECULAR_KARIS)
+    if (specularMethod == SPECULAR_KARIS)
         specular = representativeRectangle(r.p, light.toLight, u, v, twoSided);
-    else if (areaMethod == SPECULAR_SAMPLED)
+    else if (specularMethod == SPECULAR_SAMPLED)
         specular = sampledRectangle(r.p, light.toLight, u, v, twoSided, r.sampleCount,
                                     lightSeed(r, light.index));
     return specular;

@@ -21,9 +21,9 @@ vec2 cheapTubeSpecular(Receiver r, Light light, float scale)
     const vec3 axis = scale * shape.axisU;
     const float radius = scale * shape.radius;
     vec2 specular = vec2(0.0);
-    if (areaMethod == SPECULAR_KARIS)
+    if (specularMethod == SPECULAR_KARIS)
         specular = representativeTube(r.p, light.toLight, axis, radius);
-    else if (areaMethod == SPECULAR_SAMPLED)
+    else if (specularMethod == SPECULAR_SAMPLED)
         specular = sampledTube(r.p, light.toLight, axis, radius, r.sampleCount,
                                lightSeed(r, light.index));
     return specular;

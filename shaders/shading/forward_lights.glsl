@@ -142,7 +142,8 @@ uint typeWithLights(uint type)
 }
 
 // Returns the luminance towards the eye, in cd/m^2, of a surface under all lights. It is what the
-// view's own pass adds to the radiance of an opaque surface, summed in the same order.
+// view's own pass adds to the radiance of an opaque surface with SPECULAR_CONIC, summed in the same
+// order.
 vec3 litSurface(Surface surface, vec3 position)
 {
     const Receiver receiver = forwardReceiver(surface, position);

@@ -11,7 +11,8 @@
 #include "shading/receiver.glsl"
 #include "shading/software_drivers.glsl"
 
-// The sums of a lane, by the way in which lights are evaluated (light_walk.glsl).
+// The sums of a lane, by the way in which lights are evaluated (light_families.glsl). The way NEAR,
+// which only spheres have, names SUM_GENERAL, but nothing is kept for spheres.
 const uint SUM_ABOVE = 0u;
 const uint SUM_GENERAL = 1u;
 

@@ -46,9 +46,9 @@
 #define EVALUATIONS(X) TWO_EVALUATIONS(X, polygonAbove, polygonResponse)
 #endif
 
-// Whether the shader evaluates all families, each by the function of the way GENERAL in
-// GENERAL_RESPONSES.
+// Whether the shader evaluates all families.
 const bool HAS_ALL_FAMILIES = LIGHT_FAMILY == FAMILY_COUNT;
+// The function of the way GENERAL of each family. For spheres it is that of the closed form.
 #define GENERAL_RESPONSES(X)                                                                       \
     X(PUNCTUAL, punctualResponse)                                                                  \
     X(SPHERE, sphereAcross)                                                                        \

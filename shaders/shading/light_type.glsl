@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The type of the lights that are evaluated, and the specular method. All lights of a dispatch are of
 // one type, which is a specialisation constant. Shaders of hosts evaluate one type after the other.
-// specularMethod is the method for spheres, areaMethod the one for tubes, rectangles, discs and
-// polygons.
+// specularMethod is a method that the type has (canonicalMethod() in engine/shading/light_family.h).
 #ifndef CND_SHADING_LIGHT_TYPE
 #define CND_SHADING_LIGHT_TYPE
 
@@ -23,8 +22,7 @@ const bool IS_DISTANT = (TYPES_WITH_POSITION >> lightType & 1u) == 0u;
 #define TYPE_IS_OF(family) ((family) == LIGHT_FAMILY)
 layout(constant_id = SPEC_SPECULAR_METHOD) const uint specularMethod = SPECULAR_CONIC;
 #endif
-const uint areaMethod = specularMethod;
-const bool BY_OUTLINE = areaMethod == SPECULAR_CONIC || areaMethod == SPECULAR_CONIC_FULL;
+const bool BY_OUTLINE = specularMethod == SPECULAR_CONIC || specularMethod == SPECULAR_CONIC_FULL;
 
 // Returns the vector from the point to the light's centre, or the unit direction of a distant light.
 vec3 towardsLight(vec3 centre, vec3 position)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What shaders do for drivers that run them on a CPU, and why. Shaders are written for GPUs. A kernel
-// whose lanes share work in another way on a CPU has a second form in kernels/cpu. Everything else is
-// here.
+// whose lanes share work in another way on a CPU has a second form in kernels/cpu. The switches that
+// several shaders use are here. What concerns one function is explained there.
 //
 // llvmpipe (Mesa 22.3), whose lanes are a vector of the CPU:
 // - It reads texel buffers five times faster than storage buffers: READ.
@@ -26,7 +26,8 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #include "shared/lighting_data.h"
 
-// forCpu tells whether the kernel runs on llvmpipe. tileHeight is the height of the tiles that it
+// forCpu tells whether the kernel runs on llvmpipe and texel buffers are large enough for all lights
+// (engine/lights/light_limits.h). tileHeight is the height of the tiles that it
 // shades (shared/lighting_data.h), which is ANY_HEIGHT on GPUs. Shaders of hosts have no such
 // constants.
 #ifdef LIGHT_FAMILY_ALL

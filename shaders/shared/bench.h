@@ -41,10 +41,10 @@ GPU_SIZE(BenchResponse, 12)
 
 // Specialisation constants in addition to those of lighting_data.h.
 const uint SPEC_BENCH_EVALUATION = 16u; // time_lights: EVALUATE_*
-// The ways in which shading/light_walk.glsl evaluates lights.
-const uint EVALUATE_ABOVE = 0u;   // sphere above the horizon
+// The ways of evaluation (shading/light_families.glsl).
+const uint EVALUATE_ABOVE = 0u;   // sphere, or light with an outline, above the horizon
 const uint EVALUATE_NEAR = 1u;    // sphere that nearly touches the horizon, or tiny across it
-const uint EVALUATE_GENERAL = 2u; // sphere across the horizon; any light of other types
+const uint EVALUATE_GENERAL = 2u; // any other light that reaches the point
 const uint EVALUATE_NONE = 3u;    // light that does not reach the point
 const uint SPEC_BENCH_FORM_FACTOR = 17u;  // time_form_factor: which form
 const uint BENCH_FORM_FACTOR_NONE = 0u;   // the loop alone

@@ -111,8 +111,7 @@ TEST_F(LightTypes, ClusteredEqualsBruteForceForEveryMethod)
         for (const app::Choice<CndSpecularMethod>& choice : app::specularChoices) {
             const CndSpecularMethod method = choice.value;
             // The other types have fewer methods, some of which stand for several names.
-            const bool stands = method == CND_SPECULAR_KX || method == CND_SPECULAR_POINT ||
-                                method == CND_SPECULAR_CONIC_FULL;
+            const bool stands = lighting::canonicalMethod(type, method) != method;
             // Kernels take long to create: for the other types only two methods are tested, all
             // with --full.
             const bool later = method == CND_SPECULAR_NONE || method == CND_SPECULAR_SAMPLED;

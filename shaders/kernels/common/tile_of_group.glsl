@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the tile that a workgroup shades, on the work list of its class, and the clusters of its
-// pixels.
+// Finds the tile that a workgroup shades, on the work list of its height and class, and the clusters
+// of its pixels.
 #ifndef CND_COMMON_TILE_OF_GROUP
 #define CND_COMMON_TILE_OF_GROUP
 

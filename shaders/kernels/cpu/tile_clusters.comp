@@ -34,7 +34,7 @@ void main()
     uint i = 0u;
     bool empty = true;
     do {
-        if (empty) // SwiftShader needs the condition in the body too (DECISIONS 42)
+        if (empty) // SwiftShader, which runs this form in tests, needs it here too (IF_COUNTS_DIFFER)
             empty = depthAt(pixelOfTile(first, last, i)) == frame.clearDepth;
         ++i;
     } while (empty && i < pixels);
