@@ -17,7 +17,8 @@ bool texelBuffersSuffice(const VkPhysicalDeviceLimits& limits);
 
 // Returns the value of SPEC_FOR_CPU. It is 0 on GPUs. It is 1 on a device whose lanes are a CPU
 // vector, if its texel buffers suffice: then kernels read lights and the entries of lists from
-// texel buffers, which is cheaper there (shaders/shading/software_drivers.glsl).
+// texel buffers, read nothing ahead and keep nothing in shared memory
+// (shaders/shading/software_drivers.glsl).
 uint32_t forCpu(const gpu::Device& device);
 
 } // namespace candelabra::lighting

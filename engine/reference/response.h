@@ -30,7 +30,6 @@ struct SphereCap {
 
     double cosine() const { return std::sqrt(std::max(0.0, 1 - sin2)); }
     double sine() const { return std::sqrt(sin2); }
-    double oneMinusCosine() const { return sin2 / (1 + cosine()); }
 };
 
 // The widest cap that the specular lobe uses, 89.4 degrees; receivers on or inside a sphere use it.

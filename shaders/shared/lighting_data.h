@@ -94,7 +94,7 @@ const uint TILE_CLASSES = 2u;
 // Tiles are distinguished by how high their spheres are. The height of a sphere at a sample is how
 // far its centre is above the sample's tangent plane, the horizon. A tile's height says what holds
 // at every sample of the tile, for every sphere whose light may reach the sample. Each height has a
-// kernel without the evaluations that it rules out, and a work list per class of tiles. All buffers
+// kernel without the evaluations that it rules out, and a work list per tile class. All buffers
 // of tiles begin with a list for each height and class, at height * TILE_CLASSES + CLASS_*. Those
 // of tiles with a surface and of unlisted tiles have room in the lists of ANY_HEIGHT only.
 const uint ANY_HEIGHT = 0u;  // nothing is known
@@ -199,7 +199,7 @@ struct CountPairsParams {
 GPU_SIZE(CountPairsParams, 12)
 
 // Specialisation constants of the kernels above.
-const uint SPEC_FOR_CPU = 0u;         // 1: the kernel runs on a CPU device (lights/light_limits.h)
+const uint SPEC_FOR_CPU = 0u;         // 1: the kernel runs on llvmpipe (lights/light_limits.h)
 const uint SPEC_SPECULAR_METHOD = 1u; // SPECULAR_*
 const uint SPEC_LIGHT_TYPE = 2u;      // LIGHT_* of every light in the batch
 const uint SPEC_TILE_CLASS = 4u;      // CLASS_* of the tiles: which work list

@@ -225,6 +225,10 @@ struct Replace<F> {
     static void VKAPI_CALL call(VkDevice device, H handle, const VkAllocationCallbacks* callbacks)
     {
         const std::lock_guard lock(mutex);
+        if (sharedDevice && device != sharedDevice) {
+            F(device, handle, callbacks);
+            return;
+        }
         Known<H>::contents.erase(handle);
         const auto found = Known<H>::users.find(handle);
         if (found != Known<H>::users.end() && (--found->second > 0 || sharedDevice))
@@ -236,6 +240,7 @@ struct Replace<F> {
         for (const auto& [handle, users] : Known<H>::users)
             if (users == 0)
                 F(sharedDevice, handle, nullptr);
+        std::erase_if(Known<H>::users, [](const auto& known) { return known.second == 0; });
         Known<H>::byContent.clear();
     }
 };

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A rival of the engine's closed forms: lights evaluated by linearly transformed cosines. The functions
 // have the names of those in shading/light_eval.glsl and bench/evaluate_classified.glsl, for a receiver
-// of their own. They are compiled for the family POLYGON. The form
-// factor of polygons and rectangles is the contour integral by which the specular lobe is evaluated,
-// too.
+// of their own. They are compiled for the family POLYGON. The form factor of polygons and rectangles is
+// the contour integral by which the specular lobe is evaluated, too.
 #ifndef CND_BENCH_LTC_LIGHTS
 #define CND_BENCH_LTC_LIGHTS
 

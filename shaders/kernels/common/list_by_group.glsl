@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lanes of a group make one list together. In each turn a lane
-// tests up to TESTS_PER_LANE lights, which are LANES apart, and the group appends those that touch the
-// cluster in their order.
+// The lanes of a group make one list together. In each turn a lane tests up to TESTS_PER_LANE lights,
+// which are LANES apart, and the group appends those that touch the cluster in their order.
 #ifndef CND_COMMON_LIST_BY_GROUP
 #define CND_COMMON_LIST_BY_GROUP
 

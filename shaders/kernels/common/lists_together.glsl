@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Short lists. Most lists of tiles and of slices are found
-// among fewer lights than a group has lanes, so a group per list would leave most lanes idle.
-// Instead one group makes several of them at once.
+// Short lists. Most lists of tiles and of slices are found among fewer lights than a group has lanes,
+// so a group per list would leave most lanes idle. Instead one group makes several of them at once.
 //
 // The lists of a dispatch are divided into sets of LISTS_TOGETHER consecutive ones, and each set
 // has as many groups as lists. A list is short if the list of its parent has one page at most; then
