@@ -86,8 +86,8 @@ public:
         return v;
     }
 
-    // The first call records a barrier that makes the placeholder for textures of integers
-    // readable.
+    // The first call records the barrier after which kernels may read the image that is bound
+    // where the host has no texture of integers.
     void record(const gpu::Frame& frame) noexcept;
 
 private:

@@ -45,8 +45,8 @@ struct LightKeysParams {
 };
 GPU_SIZE(LightKeysParams, 32)
 
-// --- sort_count, sort_sums, sort_offsets, sort_scatter, and sort_lights of kernels/cpu: one pass over
-// a digit; all have these bindings
+// --- sort_count, sort_sums, sort_offsets, sort_scatter, and sort_lights of kernels/cpu: one pass
+// over a digit; all have these bindings
 const uint SORT_FROM = 0u; // LightKey
 const uint SORT_TO = 1u;
 const uint SORT_COUNTS = 2u; // [digit][run], replaced by exclusive sums over each SORT_SUM of them

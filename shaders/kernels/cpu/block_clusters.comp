@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The form of block_clusters for CPU devices: one lane makes one slice.
+// The form of block_clusters for llvmpipe: one lane makes one slice.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernels/common/block_range.glsl"

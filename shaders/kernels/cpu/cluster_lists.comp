@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The form of cluster_lists for CPU devices: each lane makes a list by itself, the same one. It also
+// The form of cluster_lists for llvmpipe: each lane makes a list alone, the same one. It also
 // finds the height of a tile (shared/lighting_data.h, ANY_HEIGHT).
 #version 460
 #extension GL_GOOGLE_include_directive : require

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The form of light_tree for CPU devices: a lane makes a node of the upper level and its children.
+// The form of light_tree for llvmpipe: a lane makes a node of the upper level and its children.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernels/common/tree_levels.glsl"

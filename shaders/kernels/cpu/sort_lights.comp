@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The forms of sort_count, sort_sums and sort_scatter for CPU devices: each lane has a run, or SORT_SUM
+// The forms of sort_count, sort_sums and sort_scatter for llvmpipe: each lane has a run, or SORT_SUM
 // counters, to itself.
 #version 460
 #extension GL_GOOGLE_include_directive : require

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The form of split_tiles for CPU devices: one lane makes all slices of a tile.
+// The form of split_tiles for llvmpipe: one lane makes all slices of a tile.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define GBUFFER_NORMALS_ONLY

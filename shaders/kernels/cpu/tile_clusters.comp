@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The form of tile_clusters for CPU devices: one lane makes the cluster of a tile.
+// The form of tile_clusters for llvmpipe: one lane makes the cluster of a tile.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernels/common/tile_record.glsl"

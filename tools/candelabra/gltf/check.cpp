@@ -4,8 +4,9 @@
 //
 // One wrong value does not lose a file. schema.h names the replacement of a value that is not
 // needed. A wrong element is left out, unless it is used and schema.h says that the file is refused
-// without it. It leaves a stub in its array, so indices stay valid; a primitive or an item of a
-// list of indices is removed. Each time a warning names the element, the value and the replacement.
+// without it. An empty element then takes its place in the array, so indices stay valid.
+// Primitives, and items of lists of indices, are removed instead. Each time a warning names the
+// element, the value and the replacement.
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>

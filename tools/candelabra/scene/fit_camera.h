@@ -26,8 +26,8 @@ Camera cameraOfPicture(const Camera& camera, double aspect);
 
 // The share of a picture that points fill.
 struct PictureShare {
-    // True if none of the points is in the picture, because all are behind the camera, or all are
-    // outside the same edge of the picture.
+    // The share is empty if all points are behind the camera, or all are outside the same edge of
+    // the picture. Then no point is in the picture.
     bool isEmpty = false;
     // The distance between the outermost points, as a share of the picture's width and of its
     // height. Both are 1 if a point is outside the picture.
