@@ -76,4 +76,16 @@ vec3 schlick(ShadingPoint p, vec2 response)
     return p.F0 * (response.x - response.y) + p.F90 * response.y;
 }
 
+// The responses of a surface's lobes to a light.
+struct LightResponse {
+    float formFactor; // of the light: E / (pi L), 0..1; the response of the diffuse lobe with albedo 1
+    vec2 specular;    // with F = 1 and with F = (1 - VoH)^5; 0 without a lobe
+};
+
+// Returns the luminance of a surface per emission of the light that has these responses.
+vec3 reflected(ShadingPoint p, LightResponse response)
+{
+    return p.albedo * response.formFactor + schlick(p, response.specular);
+}
+
 #endif

@@ -76,7 +76,7 @@ WalkedOutline walked(ConicPoint p, AreaProbeInput light, bool lobe)
     return discOutline(p, f, light.toCentre, light.axisU, light.radius, twoSided, needs);
 }
 
-OutlineResponse byOutline(ConicPoint p, AreaProbeInput light, bool lobe)
+LightResponse byOutline(ConicPoint p, AreaProbeInput light, bool lobe)
 {
     return outlineResponse(p, walked(p, light, lobe));
 }
@@ -104,7 +104,7 @@ void main()
         result.conic = response.yz;
         result.sampled = sampledSphere(p, cap.c, cap.omc, AREA_PROBE_SAMPLES, light.seed);
     } else {
-        const OutlineResponse o = byOutline(conic, light, true);
+        const LightResponse o = byOutline(conic, light, true);
         result.formFactor = o.formFactor;
         result.formFactorAlone = byOutline(conic, light, false).formFactor;
         result.conic = o.specular;

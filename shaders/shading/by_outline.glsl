@@ -12,11 +12,11 @@
 
 // Defines the functions by which a shape is evaluated in its classes, from <shape>WithNeeds.
 #define OUTLINE_CLASSES(shape)                                                                     \
-    vec3 shape##Response(Receiver r, Light light)                                                  \
+    LightResponse shape##Response(Receiver r, Light light)                                         \
     {                                                                                              \
         return shape##WithNeeds(r, light, OUTLINE_GENERAL);                                        \
     }                                                                                              \
-    vec3 shape##Above(Receiver r, Light light)                                                     \
+    LightResponse shape##Above(Receiver r, Light light)                                            \
     {                                                                                              \
         return shape##WithNeeds(r, light, OUTLINE_ABOVE);                                          \
     }

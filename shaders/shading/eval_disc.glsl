@@ -5,7 +5,7 @@
 #include "lib/specular/sampled.glsl"
 #include "shading/by_outline.glsl"
 
-OutlineResponse discByOutline(Receiver r, Light light, float scale, OutlineNeeds needs)
+LightResponse discByOutline(Receiver r, Light light, float scale, OutlineNeeds needs)
 {
     const LightShape shape = lightShapes[light.index];
     const WalkedOutline walked =
@@ -29,14 +29,14 @@ vec2 cheapDiscSpecular(Receiver r, Light light, float scale)
     return specular;
 }
 
-vec3 discWithNeeds(Receiver r, Light given, OutlineNeeds needs)
+LightResponse discWithNeeds(Receiver r, Light given, OutlineNeeds needs)
 {
     float scale;
     const Light light = atUnitDistance(given, scale);
-    const OutlineResponse o = discByOutline(r, light, scale, needs);
-    r = readAgain(r);
-    const vec2 specular = BY_OUTLINE ? o.specular : cheapDiscSpecular(r, light, scale);
-    return diffuseResponse(r.p, o.formFactor) + schlick(r.p, specular);
+    LightResponse response = discByOutline(r, light, scale, needs);
+    if (!BY_OUTLINE)
+        response.specular = cheapDiscSpecular(r, light, scale);
+    return response;
 }
 
 OUTLINE_CLASSES(disc)

@@ -151,7 +151,7 @@ vec2 sampledPolygon(ShadingPoint p, Polygon polygon, uint count, uint seed)
     return sum / float(max(count, 1u));
 }
 
-vec3 polygonWithNeeds(Receiver r, Light given, OutlineNeeds needs)
+LightResponse polygonWithNeeds(Receiver r, Light given, OutlineNeeds needs)
 {
     float scale;
     const Light light = atUnitDistance(given, scale);
@@ -160,16 +160,12 @@ vec3 polygonWithNeeds(Receiver r, Light given, OutlineNeeds needs)
         Polygon(light.toLight, scale * shape.axisU, scale * shape.axisV, scale, light.boundingRadius,
                 firstCornerShape(shape), cornerCount(shape), isTwoSided(shape));
     const WalkedOutline walked = polygonOutline(r, polygon, needs);
-    const OutlineResponse o = outlineResponse(readAgain(r).conic, walked);
-    r = readAgain(r);
-    vec2 specular = vec2(0.0);
-    if (BY_OUTLINE)
-        specular = o.specular;
-    else if (specularMethod == SPECULAR_SAMPLED)
-        specular = sampledPolygon(r.p, polygon, r.sampleCount, lightSeed(r, light.index));
-    else if (specularMethod != SPECULAR_NONE)
-        specular = representativePolygon(r.p, polygon);
-    return diffuseResponse(r.p, o.formFactor) + schlick(r.p, specular);
+    LightResponse response = outlineResponse(readAgain(r).conic, walked);
+    if (specularMethod == SPECULAR_SAMPLED)
+        response.specular = sampledPolygon(r.p, polygon, r.sampleCount, lightSeed(r, light.index));
+    else if (!BY_OUTLINE && specularMethod != SPECULAR_NONE)
+        response.specular = representativePolygon(r.p, polygon);
+    return response;
 }
 
 OUTLINE_CLASSES(polygon)

@@ -5,7 +5,7 @@
 #include "lib/specular/sampled.glsl"
 #include "shading/by_outline.glsl"
 
-OutlineResponse rectangleByOutline(Receiver r, Light light, float scale, OutlineNeeds needs)
+LightResponse rectangleByOutline(Receiver r, Light light, float scale, OutlineNeeds needs)
 {
     const LightShape shape = lightShapes[light.index];
     const WalkedOutline walked =
@@ -30,14 +30,14 @@ vec2 cheapRectangleSpecular(Receiver r, Light light, float scale)
     return specular;
 }
 
-vec3 rectangleWithNeeds(Receiver r, Light given, OutlineNeeds needs)
+LightResponse rectangleWithNeeds(Receiver r, Light given, OutlineNeeds needs)
 {
     float scale;
     const Light light = atUnitDistance(given, scale);
-    const OutlineResponse o = rectangleByOutline(r, light, scale, needs);
-    r = readAgain(r);
-    const vec2 specular = BY_OUTLINE ? o.specular : cheapRectangleSpecular(r, light, scale);
-    return diffuseResponse(r.p, o.formFactor) + schlick(r.p, specular);
+    LightResponse response = rectangleByOutline(r, light, scale, needs);
+    if (!BY_OUTLINE)
+        response.specular = cheapRectangleSpecular(r, light, scale);
+    return response;
 }
 
 OUTLINE_CLASSES(rectangle)

@@ -27,44 +27,43 @@ vec2 cheapSphereSpecular(Receiver r, Light light, SphereCap cap)
 
 // Returns the response to a sphere above the horizon, by the closed form. The functions after it
 // evaluate spheres near the horizon and across it, and spheres by the other methods.
-vec3 sphereAbove(Receiver r, Light light)
+LightResponse sphereAbove(Receiver r, Light light)
 {
     const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.boundingRadius);
     const vec2 specular = specularMethod == SPECULAR_CONIC ? conicAbove(r.conic, cap)
                                                            : conicUnclipped(r.conic, cap, false);
-    return diffuseResponse(r.p, cap.NoC * cap.s2) + schlick(r.p, specular);
+    return LightResponse(cap.NoC * cap.s2, specular);
 }
 
-vec3 sphereNear(Receiver r, Light light)
+LightResponse sphereNear(Receiver r, Light light)
 {
     const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.boundingRadius);
     const bool mixed = specularMethod == SPECULAR_CONIC;
-    return diffuseResponse(r.p, sphereFormFactor(cap.NoC, cap.s2)) +
-           schlick(r.p, conicUnclipped(r.conic, cap, mixed));
+    return LightResponse(sphereFormFactor(cap.NoC, cap.s2), conicUnclipped(r.conic, cap, mixed));
 }
 
 // Returns the response to a sphere across the horizon. The cap may be below the horizon because of
 // rounding, or if the receiver is inside the sphere.
-vec3 responseAcross(Receiver r, SphereCap cap, vec2 response)
+LightResponse responseAcross(SphereCap cap, vec2 specular)
 {
-    const vec2 specular = cap.NoC > -cap.s ? response : vec2(0.0);
-    return diffuseResponse(r.p, sphereFormFactor(cap.NoC, cap.s2)) + schlick(r.p, specular);
+    return LightResponse(sphereFormFactor(cap.NoC, cap.s2),
+                         cap.NoC > -cap.s ? specular : vec2(0.0));
 }
 
-vec3 sphereAcross(Receiver r, Light light)
+LightResponse sphereAcross(Receiver r, Light light)
 {
     const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.boundingRadius);
-    return responseAcross(r, cap, conicClipped(r.conic, cap));
+    return responseAcross(cap, conicClipped(r.conic, cap));
 }
 
-vec3 cheapSphereAbove(Receiver r, Light light)
+LightResponse cheapSphereAbove(Receiver r, Light light)
 {
     const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.boundingRadius);
-    return diffuseResponse(r.p, cap.NoC * cap.s2) + schlick(r.p, cheapSphereSpecular(r, light, cap));
+    return LightResponse(cap.NoC * cap.s2, cheapSphereSpecular(r, light, cap));
 }
 
-vec3 cheapSphereAcross(Receiver r, Light light)
+LightResponse cheapSphereAcross(Receiver r, Light light)
 {
     const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.boundingRadius);
-    return responseAcross(r, cap, cheapSphereSpecular(r, light, cap));
+    return responseAcross(cap, cheapSphereSpecular(r, light, cap));
 }

@@ -53,12 +53,6 @@ uint lightSeed(Receiver r, uint light)
     return pcgHash(r.sampleSeed ^ pcgHash(light));
 }
 
-// Returns the response of the diffuse lobe to a light with this form factor.
-vec3 diffuseResponse(ShadingPoint p, float formFactor)
-{
-    return p.albedo * formFactor;
-}
-
 // Returns the light scaled to a distance of about 1, and the scale. The response to an area light does
 // not depend on the scale, and at this distance no product of lengths overflows.
 Light atUnitDistance(Light light, out float scale)

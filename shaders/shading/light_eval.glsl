@@ -20,13 +20,13 @@
         keepLight(index);                                                                          \
         Light light = readLight(r, index);                                                         \
         float d2 = length2(light.toLight);                                                         \
-        const vec3 toUnitEmission = response(r, light);                                            \
+        const LightResponse toUnitEmission = response(r, light);                                   \
         if (KEEPS_RECEIVERS) {                                                                     \
             r = readAgain(r);                                                                      \
             light = readLight(r, lightAgain(index));                                               \
             d2 = length2(light.toLight);                                                           \
         }                                                                                          \
-        return emissionTowards(r, light, d2) * toUnitEmission;                                     \
+        return emissionTowards(r, light, d2) * reflected(r.p, toUnitEmission);                     \
     }
 
 #define X(WAY, found, SUM, response) EVALUATION(evaluate_##WAY, response)

@@ -21,25 +21,19 @@ LtcReceiver makeLtcReceiver(Receiver base)
     return LtcReceiver(base, makeLtcPoint(base.p));
 }
 
-// The form factor of a light, and the response of the specular lobe.
-struct LtcResponse {
-    float formFactor;
-    vec2 specular;
-};
-
 // `above`: the sphere is wholly above the horizon.
-LtcResponse sphereByCosines(LtcReceiver r, Light light, bool above)
+LightResponse sphereByCosines(LtcReceiver r, Light light, bool above)
 {
     const SphereCap cap = makeSphereCap(r.base.p.n, light.toLight, light.boundingRadius);
     const float formFactor = above ? cap.NoC * cap.s2 : sphereFormFactor(cap.NoC, cap.s2);
-    return LtcResponse(formFactor, ltcSphere(r.ltc, cap.c, cap.s2));
+    return LightResponse(formFactor, ltcSphere(r.ltc, cap.c, cap.s2));
 }
 
-LtcResponse rectangleByCosines(LtcReceiver r, Light light, vec3 u, vec3 v, bool twoSided)
+LightResponse rectangleByCosines(LtcReceiver r, Light light, vec3 u, vec3 v, bool twoSided)
 {
     const bool seen = facesRectangle(light.toLight, u, v, twoSided);
     const float f = parallelogramFormFactor(r.base.p.n, light.toLight, u, v);
-    return LtcResponse(seen ? f : 0.0, ltcRectangle(r.ltc, light.toLight, u, v, twoSided));
+    return LightResponse(seen ? f : 0.0, ltcRectangle(r.ltc, light.toLight, u, v, twoSided));
 }
 
 // Returns the form factor of a polygon after a linear map.
@@ -56,18 +50,18 @@ float polygonFormFactor(vec3 n, mat3 map, Polygon polygon)
     return contourFormFactor(k);
 }
 
-LtcResponse polygonByCosines(LtcReceiver r, Polygon polygon)
+LightResponse polygonByCosines(LtcReceiver r, Polygon polygon)
 {
     if (!facesRectangle(polygon.toCentre, polygon.axisU, polygon.axisV, polygon.twoSided))
-        return LtcResponse(0.0, vec2(0.0));
+        return LightResponse(0.0, vec2(0.0));
     const vec3 n = r.base.p.n;
     const float underLobe = polygonFormFactor(LTC_NORMAL, ltcMatrix(r.ltc.lobe, n), polygon);
-    return LtcResponse(polygonFormFactor(n, mat3(1.0), polygon), ltcResponse(r.ltc, underLobe));
+    return LightResponse(polygonFormFactor(n, mat3(1.0), polygon), ltcResponse(r.ltc, underLobe));
 }
 
 // Returns the response to a light of unit emission. The light's type is a specialisation constant, so
 // only one of the calls remains.
-LtcResponse responseByCosines(LtcReceiver r, Light given, bool above)
+LightResponse responseByCosines(LtcReceiver r, Light given, bool above)
 {
     const LightShape shape = lightShapes[given.index];
     float scale;
@@ -85,9 +79,8 @@ LtcResponse responseByCosines(LtcReceiver r, Light given, bool above)
 vec3 evaluateByCosines(LtcReceiver r, uint index, bool above)
 {
     const Light light = readLight(r.base, index);
-    const LtcResponse response = responseByCosines(r, light, above);
     return emissionTowards(r.base, light, length2(light.toLight)) *
-        (diffuseResponse(r.base.p, response.formFactor) + schlick(r.base.p, response.specular));
+        reflected(r.base.p, responseByCosines(r, light, above));
 }
 
 vec3 evaluate_ABOVE(LtcReceiver r, uint light)

@@ -6,11 +6,6 @@
 #include "lib/outline/bands.glsl"
 #include "lib/outline/thin.glsl"
 
-struct OutlineResponse {
-    float formFactor; // E / (pi L), 0..1
-    vec2 specular;    // with F = 1 and with F = (1 - VoH)^5; 0 without a lobe
-};
-
 // How the directions to a whole light, without regard to the horizon, spread around the direction to
 // its centre.
 struct OutlineExtent {
@@ -148,10 +143,10 @@ vec2 bandResponse(ConicPoint p, Outline k, OutlineExtent extent, OutlineBand ban
 }
 
 // Returns the response to an outline.
-OutlineResponse outlineResponse(ConicPoint p, WalkedOutline walked)
+LightResponse outlineResponse(ConicPoint p, WalkedOutline walked)
 {
     const Outline k = walked.k;
-    OutlineResponse o;
+    LightResponse o;
     o.formFactor = saturate((0.5 * INV_PI) * (k.diffuse.z + k.lowerDiffuse.z));
     o.specular = vec2(0.0);
     if (k.needs.lobe) {
@@ -176,7 +171,7 @@ OutlineResponse outlineResponse(ConicPoint p, WalkedOutline walked)
         o.specular *= limit;
     }
     const float scale = walked.seen ? walked.dim : 0.0;
-    return OutlineResponse(scale * o.formFactor, scale * o.specular);
+    return LightResponse(scale * o.formFactor, scale * o.specular);
 }
 
 #endif
