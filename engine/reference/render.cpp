@@ -14,7 +14,7 @@
 
 #include "reference/joining.h"
 #include "reference/light.h"
-#include "reference/truth.h"
+#include "reference/visibility.h"
 #include "reference/visible_lights.h"
 
 namespace candelabra::reference
@@ -30,6 +30,10 @@ Ray pixelRay(const Camera& camera, uint32_t width, uint32_t height, uint32_t col
     const glm::dvec3 up = glm::cross(right, forward);
     const double x = 2 * (column + 0.5) / width - 1;
     const double y = 1 - 2 * (row + 0.5) / height;
+    if (camera.orthographicHeight > 0)
+        return {camera.position +
+                    camera.orthographicHeight / 2 * (x * camera.aspect * right + y * up),
+                forward};
     const double scale = std::tan(camera.verticalFov / 2);
     return {camera.position, forward + scale * (x * camera.aspect * right + y * up)};
 }
@@ -82,6 +86,9 @@ void validate(const Scene& scene, uint32_t width, uint32_t height, uint32_t ligh
         require(scene.objects[i].material < scene.materials.size(),
                 "object " + std::to_string(i) + " names a material that does not exist");
     }
+    for (const Triangle& triangle : scene.triangles)
+        require(triangle.material < scene.materials.size(),
+                "a triangle names a material that does not exist");
     for (size_t i = 0; i < scene.lights.size(); ++i) {
         require(scene.lights[i].type < lightTypes,
                 "light " + std::to_string(i) + " has an unknown type");
@@ -117,34 +124,56 @@ void inParallel(uint32_t count, uint32_t threads, Work&& work)
         std::rethrow_exception(failure);
 }
 
-struct ObjectHit {
-    const Object* object = nullptr; // null: the ray hits nothing
-    double distance = std::numeric_limits<double>::infinity();
+// What a ray meets first.
+struct NearestHit {
+    double distance = std::numeric_limits<double>::infinity(); // nothing
+    const Object* object = nullptr;                            // null: a triangle
+    TriangleHit triangle;
 };
 
-ObjectHit nearestObject(const Scene& scene, const Ray& ray)
+NearestHit nearestSurface(const Scene& scene, const Occluders& surfaces, const Ray& ray)
 {
-    ObjectHit nearest;
+    NearestHit nearest;
+    if (const auto hit = surfaces.nearest(ray))
+        nearest = {hit->distance, nullptr, *hit};
     for (const Object& object : scene.objects) {
         const std::optional<double> t = object.type == Object::Type::Plane
                                             ? intersectPlane(object, ray)
                                             : intersectBall(object, ray);
         if (t && *t < nearest.distance)
-            nearest = {&object, *t};
+            nearest = {*t, &object, {}};
     }
     return nearest;
 }
 
-Hit surfaceAt(const ObjectHit& nearest, const Ray& ray)
+// Returns the interpolated normal, turned towards the side of the triangle from which the ray
+// comes.
+glm::dvec3 normalAt(const Triangle& triangle, const TriangleHit& hit, const Ray& ray)
 {
-    const Object& object = *nearest.object;
+    const auto& [a, b, c] = triangle.corners;
+    const auto& [na, nb, nc] = triangle.normals;
+    const glm::dvec3 face = glm::cross(b - a, c - a);
+    const glm::dvec3 smooth = (1 - hit.u - hit.v) * na + hit.u * nb + hit.v * nc;
+    const glm::dvec3 normal = glm::normalize(glm::length(smooth) > 0 ? smooth : face);
+    return glm::dot(face, ray.direction) > 0 ? -normal : normal;
+}
+
+Hit surfaceAt(const Scene& scene, const NearestHit& nearest, const Ray& ray)
+{
     Hit hit;
-    hit.material = object.material;
     hit.surface.position = ray.origin + nearest.distance * ray.direction;
-    hit.surface.normal = object.type == Object::Type::Plane
-                             ? object.normal
-                             : glm::normalize(hit.surface.position - object.point);
     hit.surface.toEye = -glm::normalize(ray.direction);
+    if (nearest.object) {
+        const Object& object = *nearest.object;
+        hit.material = object.material;
+        hit.surface.normal = object.type == Object::Type::Plane
+                                 ? object.normal
+                                 : glm::normalize(hit.surface.position - object.point);
+    } else {
+        const Triangle& triangle = scene.triangles[nearest.triangle.triangle];
+        hit.material = triangle.material;
+        hit.surface.normal = normalAt(triangle, nearest.triangle, ray);
+    }
     return hit;
 }
 
@@ -155,10 +184,10 @@ struct Seen {
     Material material; // of the surface, as it appears from the eye
 };
 
-Seen traceRay(const Scene& scene, const Ray& ray)
+Seen traceRay(const Scene& scene, const Occluders& surfaces, const Ray& ray)
 {
-    const ObjectHit object = nearestObject(scene, ray);
-    double nearest = object.distance;
+    const NearestHit surface = nearestSurface(scene, surfaces, ray);
+    double nearest = surface.distance;
     const CndLight* light = nullptr;
     for (size_t i = 0; scene.lightsVisible && i < scene.lights.size(); ++i)
         if (const auto t = intersectLight(scene.lights[i], scene.lightOrigin, ray);
@@ -168,32 +197,22 @@ Seen traceRay(const Scene& scene, const Ray& ray)
         }
     if (light)
         return {.luminance = {light->emission[0], light->emission[1], light->emission[2]}};
-    if (!object.object) {
+    if (std::isinf(surface.distance)) {
         const auto distant =
             scene.lightsVisible ? distantLuminance(scene.lights, ray.direction) : std::nullopt;
         return {.luminance = distant.value_or(scene.background)};
     }
-    const Hit hit = surfaceAt(object, ray);
+    const Hit hit = surfaceAt(scene, surface, ray);
     const Material& material = scene.materials[hit.material];
     return {material.emission, hit.surface,
             joinLobes(material, glm::dot(hit.surface.normal, hit.surface.toEye), scene.lobes,
                       scene.energyCompensation)};
 }
 
-} // namespace
-
-std::optional<Hit> tracePixel(const Scene& scene, uint32_t width, uint32_t height, uint32_t column,
-                              uint32_t row)
+glm::dvec3 shadedPixel(const Scene& scene, const Occluders& surfaces, const Ray& ray,
+                       CndSpecularMethod specularMethod)
 {
-    const Ray ray = pixelRay(scene.camera, width, height, column, row);
-    const ObjectHit nearest = nearestObject(scene, ray);
-    return nearest.object ? std::optional(surfaceAt(nearest, ray)) : std::nullopt;
-}
-
-glm::dvec3 renderPixel(const Scene& scene, uint32_t width, uint32_t height, uint32_t column,
-                       uint32_t row, CndSpecularMethod specularMethod)
-{
-    const Seen seen = traceRay(scene, pixelRay(scene.camera, width, height, column, row));
+    const Seen seen = traceRay(scene, surfaces, ray);
     glm::dvec3 luminance = seen.luminance;
     if (seen.surface)
         for (const CndLight& light : scene.lights)
@@ -202,15 +221,36 @@ glm::dvec3 renderPixel(const Scene& scene, uint32_t width, uint32_t height, uint
     return luminance;
 }
 
+} // namespace
+
+std::optional<Hit> tracePixel(const Scene& scene, uint32_t width, uint32_t height, uint32_t column,
+                              uint32_t row)
+{
+    const Occluders surfaces(scene.objects, scene.triangles);
+    const Ray ray = pixelRay(scene.camera, width, height, column, row);
+    const NearestHit nearest = nearestSurface(scene, surfaces, ray);
+    return std::isinf(nearest.distance) ? std::nullopt
+                                        : std::optional(surfaceAt(scene, nearest, ray));
+}
+
+glm::dvec3 renderPixel(const Scene& scene, uint32_t width, uint32_t height, uint32_t column,
+                       uint32_t row, CndSpecularMethod specularMethod)
+{
+    return shadedPixel(scene, Occluders(scene.objects, scene.triangles),
+                       pixelRay(scene.camera, width, height, column, row), specularMethod);
+}
+
 Image render(const Scene& scene, uint32_t width, uint32_t height, CndSpecularMethod specularMethod)
 {
     validate(scene, width, height, CND_LIGHT_DIRECTIONAL + 1);
     Image image{width, height, {}};
     image.pixels.resize(static_cast<size_t>(width) * height);
+    const Occluders surfaces(scene.objects, scene.triangles);
     inParallel(height, 0, [&](uint32_t row) {
         for (uint32_t column = 0; column < width; ++column)
             image.pixels[static_cast<size_t>(row) * width + column] =
-                renderPixel(scene, width, height, column, row, specularMethod);
+                shadedPixel(scene, surfaces, pixelRay(scene.camera, width, height, column, row),
+                            specularMethod);
     });
     return image;
 }
@@ -227,21 +267,27 @@ TruthRows renderTruth(const Scene& scene, uint32_t width, uint32_t height,
     out.pixels.resize(rows.size() * width);
     std::atomic<uint64_t> unconverged{0};
     std::mutex rowMutex;
+    const Occluders surfaces(scene.objects, scene.triangles);
+    const auto truthOfPixel = [&](uint32_t column, uint32_t row) {
+        const Ray ray = pixelRay(scene.camera, width, height, column, row);
+        const Seen seen = traceRay(scene, surfaces, ray);
+        glm::dvec3 pixel = seen.luminance;
+        if (seen.surface)
+            unconverged += addLights({.lights = scene.lights,
+                                      .ignoredLayers = scene.ignoredLayers,
+                                      .lightOrigin = scene.lightOrigin,
+                                      .occluders = options.shadows ? &surfaces : nullptr,
+                                      .relative = options.relative,
+                                      .seed = (options.seed << 32) + size_t{row} * width + column},
+                                     *seen.surface, seen.material, pixel);
+        return pixel;
+    };
+    const glm::dvec3 missing(std::numeric_limits<double>::quiet_NaN());
     inParallel(static_cast<uint32_t>(rows.size()), options.threads, [&](uint32_t i) {
-        for (uint32_t column = 0; column < width; ++column) {
-            const Seen seen =
-                traceRay(scene, pixelRay(scene.camera, width, height, column, rows[i]));
-            glm::dvec3& pixel = out.pixels[static_cast<size_t>(i) * width + column];
-            pixel = seen.luminance;
-            if (!seen.surface)
-                continue;
-            for (const CndLight& light : scene.lights) {
-                const Truth truth = truthLuminance(*seen.surface, seen.material, light,
-                                                   scene.lightOrigin, options.relative);
-                pixel += truth.luminance;
-                unconverged += truth.converged ? 0 : 1;
-            }
-        }
+        for (uint32_t column = 0; column < width; ++column)
+            out.pixels[static_cast<size_t>(i) * width + column] =
+                !options.wanted || options.wanted(column, rows[i]) ? truthOfPixel(column, rows[i])
+                                                                   : missing;
         if (options.onRow) {
             const std::lock_guard lock(rowMutex);
             options.onRow();

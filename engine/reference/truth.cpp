@@ -144,9 +144,9 @@ Truth truthLuminance(const SurfacePoint& surface, const Material& material, cons
     if (light.type == CND_LIGHT_POINT || light.type == CND_LIGHT_SPOT ||
         light.type == CND_LIGHT_DIRECTIONAL) {
         // Any method but CND_SPECULAR_NONE does: punctual lights have only one specular lobe.
-        return {outgoingLuminance(surface, material, light, lightOrigin,
-                                  hasSpecular(material) ? CND_SPECULAR_KARIS : CND_SPECULAR_NONE),
-                true};
+        return {.luminance = outgoingLuminance(surface, material, light, lightOrigin,
+                                               hasSpecular(material) ? CND_SPECULAR_KARIS
+                                                                     : CND_SPECULAR_NONE)};
     }
     double window = 1;
     if (light.type != CND_LIGHT_DISTANT_SPHERE) {
@@ -157,11 +157,13 @@ Truth truthLuminance(const SurfacePoint& surface, const Material& material, cons
         return {};
     const LightResponse r = truthResponse(surface, hasSpecular(material) ? material.alpha : 0,
                                           light, lightOrigin, relative);
-    return {vec3(light.emission) * window *
-                (material.diffuseAlbedo * r.f +
-                 material.specularGain *
-                     (material.f0 * (r.a - r.b) + glm::dvec3(material.specularWeight * r.b))),
-            r.converged};
+    const glm::dvec3 emission = vec3(light.emission) * window;
+    return {emission * (material.diffuseAlbedo * r.f +
+                        material.specularGain * (material.f0 * (r.a - r.b) +
+                                                 glm::dvec3(material.specularWeight * r.b))),
+            r.converged, emission * material.specularGain * material.f0 * r.a,
+            emission * material.specularGain * (material.specularWeight - material.f0) * r.b,
+            emission * material.diffuseAlbedo * r.f};
 }
 
 } // namespace candelabra::reference

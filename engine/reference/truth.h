@@ -31,6 +31,8 @@ LightResponse truthResponse(const SurfacePoint& surface, double alpha, const Cnd
 struct Truth {
     glm::dvec3 luminance{0};
     bool converged = true; // the tolerance was reached
+    // Area lights: what the response's a, b and f add to the luminance, which is their sum.
+    glm::dvec3 a{0}, b{0}, f{0};
 };
 
 // Returns the luminance (cd/m^2 per channel) that `light` sends from the surface to the eye: direct

@@ -28,37 +28,6 @@ namespace
 
 const SurfacePoint upward{{0, 0, 0}, {0, 0, 1}, {0.6, 0, 0.8}};
 
-void set(float (&out)[3], const glm::dvec3& value)
-{
-    for (int i = 0; i < 3; ++i)
-        out[i] = static_cast<float>(value[i]);
-}
-
-CndLight makeRectangle(const glm::dvec3& center, const glm::dvec3& u, const glm::dvec3& v)
-{
-    CndLight light = makeSphere(glm::vec3(center), 0, glm::vec3(1));
-    light.type = CND_LIGHT_RECTANGLE;
-    set(light.axisU, u);
-    set(light.axisV, v);
-    return light;
-}
-
-CndLight makeDisc(const glm::dvec3& center, const glm::dvec3& normal, float radius)
-{
-    CndLight light = makeSphere(glm::vec3(center), radius, glm::vec3(1));
-    light.type = CND_LIGHT_DISC;
-    set(light.direction, normal);
-    return light;
-}
-
-CndLight makeTube(const glm::dvec3& center, const glm::dvec3& half, float radius)
-{
-    CndLight light = makeSphere(glm::vec3(center), radius, glm::vec3(1));
-    light.type = CND_LIGHT_TUBE;
-    set(light.axisU, half);
-    return light;
-}
-
 double formFactor(const CndLight& light)
 {
     return truthResponse(upward, 0, light, glm::dvec3(0), 1e-10).f;

@@ -119,4 +119,35 @@ inline CndLight makeSphere(const glm::vec3& position, float radius, const glm::v
     return light;
 }
 
+inline void set(float (&out)[3], const glm::dvec3& value)
+{
+    for (int i = 0; i < 3; ++i)
+        out[i] = static_cast<float>(value[i]);
+}
+
+inline CndLight makeRectangle(const glm::dvec3& center, const glm::dvec3& u, const glm::dvec3& v)
+{
+    CndLight light = makeSphere(glm::vec3(center), 0, glm::vec3(1));
+    light.type = CND_LIGHT_RECTANGLE;
+    set(light.axisU, u);
+    set(light.axisV, v);
+    return light;
+}
+
+inline CndLight makeDisc(const glm::dvec3& center, const glm::dvec3& normal, float radius)
+{
+    CndLight light = makeSphere(glm::vec3(center), radius, glm::vec3(1));
+    light.type = CND_LIGHT_DISC;
+    set(light.direction, normal);
+    return light;
+}
+
+inline CndLight makeTube(const glm::dvec3& center, const glm::dvec3& half, float radius)
+{
+    CndLight light = makeSphere(glm::vec3(center), radius, glm::vec3(1));
+    light.type = CND_LIGHT_TUBE;
+    set(light.axisU, half);
+    return light;
+}
+
 } // namespace candelabra::test
