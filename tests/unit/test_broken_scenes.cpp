@@ -114,11 +114,12 @@ TEST(BrokenScenes, WhatIsNoFile)
               "");
     EXPECT_EQ(unfitMessage(message("/dev/null"), "/dev/null", "is not a regular file"), "");
     EXPECT_EQ(message("barn"),
-              "unknown scene \"barn\": use hall, field, fence, showcase, or the path of "
+              "unknown scene \"barn\": use hall, field, fence, rooms, showcase, or the path of "
               "a .gltf, .glb or .json file");
-    EXPECT_EQ(message(""),
-              "unknown scene \"\": use hall, field, fence, showcase, or the path of a .gltf, "
-              ".glb or .json file");
+    EXPECT_EQ(
+        message(""),
+        "unknown scene \"\": use hall, field, fence, rooms, showcase, or the path of a .gltf, "
+        ".glb or .json file");
     const std::string text = folder.write("notes.txt", std::string("a scene"));
     EXPECT_EQ(unfitMessage(message(text), text, "is neither glTF"), "");
 }

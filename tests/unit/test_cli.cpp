@@ -195,6 +195,7 @@ TEST(Cli, HelpNamesTheCamerasOfGeneratedScenes)
     expectNames("hall", generateHall({.lights = 0}));
     expectNames("field", generateField({.lights = 0}));
     expectNames("fence", generateFence({.lights = 0}));
+    expectNames("rooms", generateRooms({.lights = 0}));
     expectNames("showcase", generateShowcase({}));
 }
 

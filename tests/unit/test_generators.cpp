@@ -422,8 +422,8 @@ TEST(Showcase, LampsAreDimEnoughForADisplayToShowTheirColour)
 
 TEST(GeneratedScenes, GlowByTheirLightsAlone)
 {
-    for (const Scene& scene :
-         {generateHall({}), generateField({}), generateFence({}), generateShowcase({})}) {
+    for (const Scene& scene : {generateHall({}), generateField({}), generateFence({}),
+                               generateRooms({}), generateShowcase({})}) {
         for (const Material& material : scene.materials) {
             EXPECT_EQ(material.emission, glm::vec3(0)) << scene.name << ": " << material.name;
             EXPECT_FALSE(material.unlit) << scene.name << ": " << material.name;

@@ -197,7 +197,7 @@ TEST_F(Save, ShowcaseIsWrittenOut)
 // Surfaces come from the source, with its seed; lights come from the description.
 TEST_F(Save, ScenesOfMeshesReferToTheirSource)
 {
-    for (const char* name : {"hall", "field", "fence"}) {
+    for (const char* name : {"hall", "field", "fence", "rooms"}) {
         Scene scene = loadScene(name, {.lights = 30, .seed = 7});
         scene.lights.erase(scene.lights.begin() + 3);
         scene.lights[5].radius *= 2;

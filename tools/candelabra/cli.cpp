@@ -51,9 +51,9 @@ void addProgramOptions(CLI::App& app, ProgramContext& context)
     app.set_version_flag("--version", fmt::format("candelabra {}.{}.{}", version >> 22,
                                                   (version >> 12) & 0x3ff, version & 0xfff));
     app.footer(
-        "SCENE is hall, field or fence, generated with --lights N, --seed S and --overlaps K;\n"
-        "showcase, which has one light of every type; or a file, glTF 2.0 (.gltf, .glb) or a\n"
-        "scene description (.json).\n\n"
+        "SCENE is hall, field, fence or rooms, generated with --lights N, --seed S and\n"
+        "--overlaps K; showcase, which has one light of every type; or a file, glTF 2.0\n"
+        "(.gltf, .glb) or a scene description (.json).\n\n"
         "Examples:\n"
         "  candelabra stress                        measure growing numbers of lights, into out/\n"
         "  candelabra render hall --lights 16000 -o hall.png\n"

@@ -35,7 +35,7 @@ CullingSettings settingsOf(const CullingArguments& a)
     for (const std::string& scene : s.scenes)
         if (!isGenerated(scene))
             throw UsageError(
-                fmt::format("--scenes \"{}\": choose among hall, field, fence", a.scenes));
+                fmt::format("--scenes \"{}\": choose among hall, field, fence, rooms", a.scenes));
     s.sizes.clear();
     for (const std::string& text : splitAtCommas(a.sizes))
         s.sizes.push_back(sizeOption("--size", text));

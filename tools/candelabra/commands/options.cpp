@@ -149,9 +149,10 @@ void LobeArguments::applyTo(SceneOptions& options) const
 void SceneArguments::addTo(CLI::App& command, const std::string& fallback)
 {
     scene = fallback;
-    CLI::Option* option =
-        addOption(command, fallback.empty() ? "scene" : "scene,--scene", scene, "SCENE",
-                  "hall, field, fence, showcase, or the path of a .gltf, .glb or scene .json file");
+    CLI::Option* option = addOption(
+        command, fallback.empty() ? "scene" : "scene,--scene", scene, "SCENE",
+        "hall, field, fence, rooms, showcase, or the path of a .gltf, .glb or scene .json "
+        "file");
     if (fallback.empty())
         option->required();
     addOption(command, "--seed", seed, "S", "seed of all random numbers in the scene (1)");
@@ -191,9 +192,10 @@ void SceneArguments::addDefaultLightTo(CLI::App& command)
 
 void SceneArguments::addLightsTo(CLI::App& command)
 {
-    addOption(command, "--lights", lightsOption, "N",
-              "number of sphere lights in hall, field and fence (4000); a file gets this many "
-              "random lights in addition to its own");
+    addOption(
+        command, "--lights", lightsOption, "N",
+        "number of sphere lights in hall, field, fence and rooms (4000); a file gets this many "
+        "random lights in addition to its own");
 }
 
 std::optional<uint32_t> SceneArguments::lightCount() const
@@ -275,7 +277,8 @@ void FrameArguments::addViewTo(CLI::App& command)
               "image size in pixels; default: the scene's size, else 1280x720");
     addOption(command, "--camera", camera, "NAME|INDEX|px,py,pz,tx,ty,tz[,fov]",
               "camera of the scene by name (hall: nave, gallery; field: terrace, overview; fence: "
-              "path, above; showcase: front, above; glTF files: their own, then three-quarter, "
+              "path, above; rooms: salon, enfilade; showcase: front, above; glTF files: their own, "
+              "then three-quarter, "
               "front, right, back, left and above, and in rooms inside and inside-2) or by index, "
               "or a new camera: position and target in metres, and vertical field of view in "
               "degrees; default: the scene's first, or the first automatic one if the file's own "
@@ -292,8 +295,8 @@ void FrameArguments::addTo(CLI::App& command)
               "automatic, or a fixed EV100; with the studio of --default-light, auto uses the "
               "EV100 of its light");
     addOption(command, "--compensation", compensation, "EV",
-              "make the picture brighter by this many EV; the night scenes hall, field, fence and "
-              "showcase add -1 EV");
+              "make the picture brighter by this many EV; the night scenes hall, field, fence, "
+              "rooms and showcase add -1 EV");
     addOption(command, "--middle-grey", middleGrey, "SHARE",
               "exposure calibration: the exposed value of a surface with the metered luminance; "
               "every tone map displays 0.18 as middle grey, 118 of 255");

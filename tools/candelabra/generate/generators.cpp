@@ -6,7 +6,7 @@ namespace candelabra::app
 
 bool isGenerated(const std::string& scene)
 {
-    return scene == "hall" || scene == "field" || scene == "fence";
+    return scene == "hall" || scene == "field" || scene == "fence" || scene == "rooms";
 }
 
 bool isBuiltIn(const std::string& scene)
@@ -25,6 +25,8 @@ Scene generateByName(const std::string& scene, const SceneOptions& options)
         return generateField(options);
     if (scene == "fence")
         return generateFence(options);
+    if (scene == "rooms")
+        return generateRooms(options);
     return generateShowcase(options);
 }
 

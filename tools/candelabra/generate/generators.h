@@ -10,7 +10,7 @@
 namespace candelabra::app
 {
 
-// Returns true for "hall", "field" and "fence", which are made for any number of lights.
+// Returns true for "hall", "field", "fence" and "rooms", which are made for any number of lights.
 bool isGenerated(const std::string& scene);
 // Returns true for the generated scenes and for "showcase", whose lights are fixed.
 bool isBuiltIn(const std::string& scene);
@@ -21,6 +21,7 @@ Scene generateScene(const std::string& scene, const SceneOptions& options);
 Scene generateHall(const SceneOptions& options);
 Scene generateField(const SceneOptions& options);
 Scene generateFence(const SceneOptions& options);
+Scene generateRooms(const SceneOptions& options);
 Scene generateShowcase(const SceneOptions& options); // one light of every type
 
 } // namespace candelabra::app

@@ -26,7 +26,7 @@ void overrideMaterials(std::vector<Material>& materials, const MaterialOverride&
 // The source of the surfaces of a scene. A description refers to its source if it cannot hold the
 // surfaces itself, because they are meshes.
 struct SceneSource {
-    std::string scene; // hall, field, fence, showcase, or the path of a glTF file
+    std::string scene; // hall, field, fence, rooms, showcase, or the path of a glTF file
     uint32_t seed = 1; // for a scene that is generated
     MaterialOverride materials{};
 };

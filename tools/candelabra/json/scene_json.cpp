@@ -198,7 +198,7 @@ SceneSource readSource(const JsonValue& json, const std::string& path)
         return out;
     out.scene = (std::filesystem::path(path).parent_path() / out.scene).string();
     if (!isGltf(out.scene))
-        name.fail("must be hall, field, fence, showcase, or a glTF file, is \"" +
+        name.fail("must be hall, field, fence, rooms, showcase, or a glTF file, is \"" +
                   printable(name.string(), 60) + "\"");
     return out;
 }

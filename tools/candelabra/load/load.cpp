@@ -50,8 +50,8 @@ Scene loadFile(const std::string& scene, const SceneOptions& options)
         return loadSceneJson(scene);
     throw SceneError(
         "unknown scene \"" + printable(scene, 4096) +
-        "\": use hall, field, fence, showcase, or the path of a .gltf, .glb or .json file" +
-        didYouMean(scene, {"hall", "field", "fence", "showcase"}));
+        "\": use hall, field, fence, rooms, showcase, or the path of a .gltf, .glb or .json file" +
+        didYouMean(scene, {"hall", "field", "fence", "rooms", "showcase"}));
 }
 
 // Adds random lights that are together about as bright as what lights a glTF file already. Scene

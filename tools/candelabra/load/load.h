@@ -10,8 +10,8 @@
 namespace candelabra::app
 {
 
-// `scene` is "hall", "field", "fence", "showcase", or the path of a .gltf, .glb or .json file.
-// Throws SceneError.
+// `scene` is "hall", "field", "fence", "rooms", "showcase", or the path of a .gltf, .glb or .json
+// file. Throws SceneError.
 Scene loadScene(const std::string& scene, const SceneOptions& options);
 
 // Throws SceneError if the scene, which the user named `name`, has nothing that could be seen.

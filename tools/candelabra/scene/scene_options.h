@@ -16,8 +16,8 @@ namespace candelabra::app
 constexpr uint32_t maxLights = 1u << 24;
 
 struct SceneOptions {
-    // For hall, field and fence the number of sphere lights (default 4000). For files the number of
-    // random sphere lights that are added inside the scene's bounds.
+    // For hall, field, fence and rooms the number of sphere lights (default 4000). For files the
+    // number of random sphere lights that are added inside the scene's bounds.
     std::optional<uint32_t> lights;
     uint32_t seed = 1; // of everything random in the scene
     // The mean number of lights that contribute to a pixel with a surface: the pixel lies within
