@@ -16,7 +16,7 @@ device = os.environ.get("CANDELABRA_TEST_DEVICE")
 FRAME = "--size 64x36"
 # By command and its part: what makes it small. "device" in front: the command takes a --device.
 SMALLER = {
-    "examples": "", "help": "", "devices": "", "truth": "--size 16x9 --tolerance 1e-2",
+    "examples": "", "help": "", "devices": "", "truth": "--size 16x9 --tolerance 1e-2 --lights 200",
     "render": f"device {FRAME}", "view": f"device {FRAME} --frames 2",
     "profile": f"device {FRAME} --frames 6", "report": "device --parts profile --lights 50 --size 64x36 --frames 2",
     "bench culling": f"device --scenes hall --overlaps 8 {FRAME} --rounds 1",

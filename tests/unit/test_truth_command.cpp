@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests candelabra truth: images, shards and their merging. Nothing here uses Vulkan.
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <string>
 #include <vector>
 
+#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include "cli.h"
 #include "data/path_traced.h"
+#include "generate/generators.h"
 #include "harness/temporary_folder.h"
 #include "io/image.h"
 #include "truth/reference_scene.h"
@@ -152,10 +155,78 @@ TEST_F(TruthCommand, MergeRefusesWhatDoesNotBelongTogether)
     EXPECT_FALSE(std::filesystem::exists(path("out.pfm")));
 }
 
-TEST_F(TruthCommand, ScenesWithoutATruthAreRefused)
+// Meshes have a truth. The pixels of --pixels are those of the whole image, the others are NaN, and
+// shards of them merge.
+TEST_F(TruthCommand, SomePixelsOfMeshesWithShadows)
 {
-    EXPECT_EQ(run({"hall", "-o", path("x.pfm"), "--size", "4x4"}), 2);
-    EXPECT_NE(err_.find("meshes"), std::string::npos) << err_;
+    const auto rooms = [&](const std::string& output, std::vector<std::string> more) {
+        more.insert(more.begin(), {"rooms", "--lights", "200", "--size", "16x8", "--lights-visible",
+                                   "off", "-q", "-o", path(output)});
+        return run(more);
+    };
+    const std::vector<std::string> some = {"--shadows", "64", "--pixels", "6"};
+    const auto with = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> all = some;
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    };
+    ASSERT_EQ(rooms("open.pfm", {}), 0) << err_;
+    ASSERT_EQ(rooms("some.pfm", some), 0) << err_;
+    EXPECT_EQ(err_, "");
+    const Image open = loadPfm(path("open.pfm")), shadowed = loadPfm(path("some.pfm"));
+    int computed = 0, darker = 0;
+    for (size_t i = 0; i < open.pixels.size(); i += 3)
+        if (!std::isnan(shadowed.pixels[i])) {
+            ++computed;
+            EXPECT_LE(shadowed.pixels[i], open.pixels[i]) << i;
+            darker += shadowed.pixels[i] < open.pixels[i];
+        }
+    EXPECT_EQ(computed, 6);
+    EXPECT_GE(darker, 1);
+    EXPECT_EQ(rooms("x.hdr", some), 2);
+    ASSERT_EQ(rooms("part1", with({"--shard", "1/2"})), 0) << err_;
+    ASSERT_EQ(rooms("part2", with({"--shard", "2/2"})), 0) << err_;
+    EXPECT_EQ(run({"--merge", path("part1"), path("part2"), "-o", path("merged.hdr")}), 2);
+    ASSERT_EQ(run({"--merge", path("part1"), path("part2"), "-q", "-o", path("merged.pfm")}), 0);
+    const Image merged = loadPfm(path("merged.pfm"));
+    EXPECT_EQ(std::memcmp(merged.pixels.data(), shadowed.pixels.data(),
+                          merged.pixels.size() * sizeof(float)),
+              0);
+    ASSERT_EQ(rooms("other2", with({"--shard", "2/2", "--shadow-seed", "1"})), 0) << err_;
+    EXPECT_EQ(run({"--merge", path("part1"), path("other2"), "-o", path("x.pfm")}), 2);
+}
+
+TEST_F(TruthCommand, WhatIsLeftOutIsSaid)
+{
+    Scene scene = generateRooms({.lights = 0});
+    EXPECT_TRUE(leftOutByReference(scene, true).empty());
+    scene.materials[scene.instances[0].material].alphaMode = AlphaMode::Blend;
+    scene.materials[scene.instances[1].material].baseColorTexture.texture = 0;
+    scene.environment.emplace();
+    EXPECT_EQ(leftOutByReference(scene, true).size(), 3u);
+    EXPECT_EQ(leftOutByReference(scene, false).size(), 2u);
+    // The floor is seen, although light passes it.
+    const reference::Scene model = toReference(scene, scene.cameras[0], 1, false);
+    EXPECT_EQ(model.triangles.size(), 22704u);
+    EXPECT_FALSE(model.triangles[0].blocks);
+    EXPECT_TRUE(model.triangles[30].blocks);
+}
+
+// Mirrored objects keep their front, and an orthographic camera its parallel rays.
+TEST_F(TruthCommand, MirroredObjectsAndParallelRays)
+{
+    Scene scene = generateRooms({.lights = 0});
+    scene.instances = {{scene.instances[0].mesh, 0, glm::scale(glm::dmat4(1), {-2, 2, 2})}};
+    scene.cameras[0].position = {0.9, 0.9, 5};
+    scene.cameras[0].forward = {0, 0, -1};
+    scene.cameras[0].up = {0, 1, 0};
+    scene.cameras[0].orthographic = true;
+    const reference::Scene model = toReference(scene, scene.cameras[0], 1, false);
+    const auto hit = tracePixel(model, 1, 1, 0, 0);
+    ASSERT_TRUE(hit);
+    EXPECT_NEAR(hit->surface.position.z, 1, 1e-12);
+    EXPECT_NEAR(hit->surface.normal.z, 1, 1e-12);
+    EXPECT_NEAR(hit->surface.toEye.z, 1, 1e-12);
 }
 
 // Visible lights are balls that emit light; the surfaces that they light do not change.
@@ -280,6 +351,8 @@ TEST_F(TruthCommand, MergeTakesNoOtherOptions)
                                                  {"--lights-visible", "on"},
                                                  {"--lobes", "sum"},
                                                  {"--shard", "1/1"},
+                                                 {"--shadows", "off"},
+                                                 {"--pixels", "1"},
                                                  {"--energy-compensation", "on"}}) {
         std::vector<std::string> arguments = more;
         arguments.insert(arguments.end(), {"-o", path("x.pfm"), "--merge", path("part")});

@@ -2,11 +2,13 @@
 #include "truth/reference_scene.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
 
 #include "io/hash.h"
 #include "scene/fit_camera.h"
 #include "scene/light_layers.h"
-#include "scene/scene_error.h"
 
 namespace candelabra::app
 {
@@ -16,6 +18,8 @@ namespace
 
 reference::Material toReference(const Material& m)
 {
+    if (m.unlit)
+        return {.emission = m.emission};
     const double roughness = m.perceptualRoughness;
     return {.diffuseAlbedo = glm::dvec3(m.baseColor) * double((1 - m.metalness) * m.diffuseWeight),
             .f0 =
@@ -48,24 +52,64 @@ void add(Hash& hash, const CndLight& light)
             hash.add(std::span<const float>(light.polygon->corners[i], 2));
 }
 
+void add(Hash& hash, const reference::Triangle& triangle)
+{
+    for (size_t i = 0; i < 3; ++i) {
+        add(hash, triangle.corners[i]);
+        add(hash, triangle.normals[i]);
+    }
+    hash.add(triangle.material);
+    hash.add(triangle.occluderLayer);
+    hash.add(triangle.twoSided);
+    hash.add(triangle.blocks);
+}
+
+bool isSeen(const Material& m)
+{
+    return m.alphaMode == AlphaMode::Opaque ||
+           m.alpha >= (m.alphaMode == AlphaMode::Mask ? m.alphaCutoff : 0.5f);
+}
+
+void addTriangles(const Scene& scene, const Instance& instance,
+                  std::vector<reference::Triangle>& out)
+{
+    const Material& material = scene.materials[instance.material];
+    const glm::dmat4& world = instance.worldFromObject;
+    const double determinant = glm::determinant(glm::dmat3(world));
+    if (!std::isnormal(determinant) || !isSeen(material))
+        return;
+    const glm::dmat3 normalMatrix = glm::transpose(glm::inverse(glm::dmat3(world)));
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        reference::Triangle triangle{.material = instance.material,
+                                     .twoSided = material.doubleSided,
+                                     .blocks = material.alphaMode == AlphaMode::Opaque};
+        for (size_t k = 0; k < 3; ++k) {
+            // Mirroring turns the order of corners.
+            const size_t corner = determinant < 0 ? 2 - k : k;
+            const Vertex& vertex = mesh.vertices[mesh.indices[i + k]];
+            triangle.corners[corner] = glm::dvec3(world * glm::dvec4(vertex.position, 1));
+            const glm::dvec3 normal = normalMatrix * glm::dvec3(vertex.normal);
+            const double length = glm::length(normal);
+            triangle.normals[corner] = length > 0 ? normal / length : glm::dvec3(0);
+        }
+        out.push_back(triangle);
+    }
+}
+
 } // namespace
 
 reference::Scene toReference(const Scene& scene, const Camera& camera, double imageAspect,
                              bool lightsVisible)
 {
-    if (!scene.instances.empty())
-        throw SceneError(scene.name +
-                         ": has meshes; the exact image can be computed for planes and balls only");
-    if (scene.environment)
-        throw SceneError(scene.name +
-                         ": has an environment; the exact image can be computed for lights only");
-    if (camera.orthographic)
-        throw SceneError(
-            scene.name + ": camera " + camera.name +
-            " is orthographic; the exact image can be computed for pinhole cameras only");
     reference::Scene out;
     const Camera whole = cameraOfPicture(camera, imageAspect);
-    out.camera = {whole.position, whole.forward, whole.up, whole.verticalFov, imageAspect};
+    out.camera = {.position = whole.position,
+                  .forward = whole.forward,
+                  .up = whole.up,
+                  .verticalFov = whole.verticalFov,
+                  .aspect = imageAspect,
+                  .orthographicHeight = whole.orthographic ? whole.orthographicHeight : 0};
     for (const Material& material : scene.materials)
         out.materials.push_back(toReference(material));
     for (const AnalyticObject& object : scene.analyticObjects)
@@ -76,6 +120,8 @@ reference::Scene toReference(const Scene& scene, const Camera& camera, double im
                                .normal = object.normal,
                                .radius = object.radius,
                                .material = object.material});
+    for (const Instance& instance : scene.instances)
+        addTriangles(scene, instance, out.triangles);
     out.lights = lightsShown(scene.lights, camera);
     out.lightOrigin = scene.lightOrigin;
     out.background = scene.background;
@@ -85,15 +131,43 @@ reference::Scene toReference(const Scene& scene, const Camera& camera, double im
     return out;
 }
 
-uint64_t referenceHash(const reference::Scene& scene)
+std::vector<std::string> leftOutByReference(const Scene& scene, bool shadows)
+{
+    size_t textured = 0, transparent = 0;
+    for (const Instance& instance : scene.instances) {
+        const Material& m = scene.materials[instance.material];
+        const auto& colours = scene.meshes[instance.mesh].vertices;
+        textured += std::any_of(colours.begin(), colours.end(),
+                                [](const Vertex& v) { return v.color != glm::vec4(1); }) ||
+                    std::max({m.baseColorTexture.texture, m.metallicRoughnessTexture.texture,
+                              m.normalTexture.texture, m.emissiveTexture.texture}) >= 0;
+        transparent += m.alphaMode != AlphaMode::Opaque;
+    }
+    std::vector<std::string> out;
+    if (textured)
+        out.push_back(fmt::format("{} of {} objects have textures or vertex colours, which the "
+                                  "truth leaves out",
+                                  textured, scene.instances.size()));
+    if (transparent && shadows)
+        out.push_back(fmt::format("{} of {} objects are masked, blended or transmissive, and cast "
+                                  "no shadows",
+                                  transparent, scene.instances.size()));
+    if (scene.environment)
+        out.push_back("the truth leaves out the light of the environment");
+    return out;
+}
+
+uint64_t referenceHash(const reference::Scene& scene, const reference::TruthOptions& options)
 {
     Hash hash;
     hash.add(reference::truthVersion);
+    hash.add(options.shadows ? 1 + options.seed : 0);
     const reference::Camera& camera = scene.camera;
     for (const glm::dvec3& v :
          {camera.position, camera.forward, camera.up, scene.lightOrigin, scene.background})
         add(hash, v);
     hash.add(camera.verticalFov);
+    hash.add(camera.orthographicHeight);
     hash.add(camera.aspect);
     hash.add(scene.lightsVisible);
     hash.add(static_cast<int>(scene.lobes));
@@ -114,9 +188,13 @@ uint64_t referenceHash(const reference::Scene& scene)
         hash.add(object.radius);
         hash.add(object.material);
     }
+    hash.add(scene.triangles.size());
+    for (const reference::Triangle& triangle : scene.triangles)
+        add(hash, triangle);
     hash.add(scene.lights.size());
     for (const CndLight& light : scene.lights)
         add(hash, light);
+    hash.add(std::span<const uint32_t>(scene.ignoredLayers));
     return hash.value();
 }
 

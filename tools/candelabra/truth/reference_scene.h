@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "reference/render.h"
 #include "scene/scene.h"
@@ -10,14 +12,19 @@
 namespace candelabra::app
 {
 
-// Converts planes, balls, lights and background of `scene`, seen from `camera`. Lights that share
-// no layer with the camera are left out. `imageAspect` is the image's width / height, as for
-// makeCamera. With `lightsVisible` the emitters of area lights are seen. Throws
-// SceneError for what the reference cannot render: meshes, an environment, orthographic cameras.
+// Converts surfaces, lights and background of `scene`, seen from `camera`. Lights that share no
+// layer with the camera are left out. `imageAspect` is the image's width / height, as for
+// makeCamera. With `lightsVisible` the emitters of area lights are seen. Materials are those
+// without their textures and vertex colours. Surfaces that are not opaque stop no light, and are
+// seen as if opaque unless less than a half, or than their cutoff, of them is covered.
 reference::Scene toReference(const Scene& scene, const Camera& camera, double imageAspect,
                              bool lightsVisible);
 
+// Returns one sentence for each thing in the scene that the reference leaves out. `shadows`: as
+// reference::TruthOptions::shadows.
+std::vector<std::string> leftOutByReference(const Scene& scene, bool shadows);
+
 // A hash of everything that decides the pixels, including the version of the integrators.
-uint64_t referenceHash(const reference::Scene& scene);
+uint64_t referenceHash(const reference::Scene& scene, const reference::TruthOptions& options);
 
 } // namespace candelabra::app

@@ -123,7 +123,8 @@ Image mergeTruthShards(std::span<const std::string> paths, std::span<const Truth
             throw ImageError(paths[i] + ": cannot be merged: " + reason);
         };
         if (shard.scene != first.scene)
-            refuse("it belongs to another scene or camera than " + paths[0]);
+            refuse("it belongs to another scene, camera or choice of pixels and shadows than " +
+                   paths[0]);
         if (shard.width != first.width || shard.height != first.height)
             refuse(fmt::format("its image has {}x{} pixels, that of {} has {}x{}", shard.width,
                                shard.height, paths[0], first.width, first.height));
