@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <string>
 
-#include "gpu/failure.h"
 #include "lights/light_types.h"
 #include "lights/pack_lights.h"
 
@@ -14,20 +12,6 @@ namespace candelabra::lighting
 {
 namespace
 {
-
-// Makes room for `more` elements. The capacity grows by half at least, so that many small calls do
-// not copy the vector each time.
-template <typename T>
-void reserveMore(std::vector<T>& v, size_t more)
-{
-    if (v.capacity() - v.size() < more)
-        v.reserve(std::max(v.size() + more, v.capacity() + v.capacity() / 2));
-}
-
-std::string idText(CndLightId id)
-{
-    return std::to_string(uint32_t(id)) + " (generation " + std::to_string(id >> 32) + ")";
-}
 
 // Lights are looked up, packed and staged in blocks. The processor waits for many records at the
 // same time when they are far from each other, and not for the small writes of a record before it
@@ -40,39 +24,15 @@ void LightTable::reserveSet(size_t count)
 {
     records_.reserve(count);
     places_.reserve(count);
-    recordOf_.reserve(count);
-    generations_.reserve(count);
+    ids_.reserveAll(count);
 }
 
 void LightTable::reserveEdits(size_t removed, size_t added)
 {
-    reserveMore(records_, added);
-    reserveMore(places_, added);
-    const size_t newSlots = added - std::min(added, freeSlots_.size());
-    reserveMore(recordOf_, newSlots);
-    reserveMore(generations_, newSlots);
-    reserveMore(freeSlots_, removed);
+    gpu::reserveMore(records_, added);
+    gpu::reserveMore(places_, added);
+    ids_.reserve(removed, added);
     staged_.reserve(records_.capacity());
-}
-
-void LightTable::check(const char* call, std::span<const CndLightId> ids)
-{
-    for (const CndLightId id : ids)
-        if (const uint32_t slot = slotOf(id); slot >= recordOf_.size() ||
-                                              recordOf_[slot] == noRecord ||
-                                              generations_[slot] != uint32_t(id >> 32))
-            gpu::failArgument(std::string(call) + ": no light of the set has the id " + idText(id));
-    if (std::ranges::adjacent_find(ids, std::greater_equal<>()) == ids.end())
-        return; // each is larger than the one before
-    seen_.resize(recordOf_.size());
-    size_t different = 0;
-    for (; different < ids.size() && !seen_[slotOf(ids[different])]; ++different)
-        seen_[slotOf(ids[different])] = true;
-    for (const CndLightId id : ids.first(different))
-        seen_[slotOf(id)] = false;
-    if (different < ids.size())
-        gpu::failArgument(std::string(call) + ": the id " + idText(ids[different]) +
-                          " is given twice");
 }
 
 // Gives a packed record its id: the slot, or the index of its polygon. `before`: the polygon that
@@ -117,17 +77,13 @@ void LightTable::set(std::span<const CndLight> lights, const Staging& staging) n
 {
     const size_t count = lights.size();
     polygons_.clear();
-    freeSlots_.clear();
     staged_.clear();
     all_ = true;
     records_.resize(count);
     places_.resize(count);
-    recordOf_.resize(count);
-    generations_.assign(count, 0);
-    for (uint32_t i = 0; i < count; ++i) {
+    ids_.setAll(uint32_t(count));
+    for (uint32_t i = 0; i < count; ++i)
         places_[i] = {i, 0};
-        recordOf_[i] = i;
-    }
     for (size_t first = 0; first < count; first += tableBlock) {
         const auto block = std::span(records_).subspan(first, std::min(tableBlock, count - first));
         packLights(lights.subspan(first, block.size()), block, uint32_t(first));
@@ -138,32 +94,16 @@ void LightTable::set(std::span<const CndLight> lights, const Staging& staging) n
     }
 }
 
-// Gives the light of a new record a slot, and returns its id.
-CndLightId LightTable::addSlot(uint32_t record) noexcept
-{
-    uint32_t slot = uint32_t(recordOf_.size());
-    if (freeSlots_.empty()) {
-        recordOf_.push_back(record);
-        generations_.push_back(0);
-    } else {
-        slot = freeSlots_.back();
-        freeSlots_.pop_back();
-        recordOf_[slot] = record;
-    }
-    generation_ += generation_ == UINT32_MAX ? 2 : 1; // 0 is the generation of lights set whole
-    generations_[slot] = generation_;
-    places_.push_back({slot, UINT32_MAX});
-    return CndLightId(generation_) << 32 | slot;
-}
-
 void LightTable::add(std::span<const CndLight> lights, CndLightId* ids,
                      const Staging& staging) noexcept
 {
     for (size_t i = 0; i < lights.size(); ++i) {
         const uint32_t record = count();
-        ids[i] = addSlot(record);
+        ids[i] = ids_.add(record);
+        const uint32_t slot = gpu::IdTable::slotOf(ids[i]);
+        places_.push_back({slot, UINT32_MAX});
         packLights(lights.subspan(i, 1), {&records_.emplace_back(), 1});
-        identify(records_.back(), lights[i], slotOf(ids[i]), noPolygon);
+        identify(records_.back(), lights[i], slot, noPolygon);
         stage(record, staging);
     }
 }
@@ -177,13 +117,13 @@ void LightTable::update(std::span<const CndLightId> ids, std::span<const CndLigh
             uint32_t record, polygon;
         } edits[tableBlock];
         for (size_t i = 0; i < count; ++i) {
-            const uint32_t record = recordOf_[slotOf(ids[first + i])];
+            const uint32_t record = recordOf(ids[first + i]);
             edits[i] = {record, polygonOf(record)};
         }
         for (size_t i = 0; i < count; ++i) {
             const auto [record, polygon] = edits[i];
             packLights(lights.subspan(first + i, 1), {&records_[record], 1});
-            identify(records_[record], lights[first + i], slotOf(ids[first + i]), polygon);
+            identify(records_[record], lights[first + i], places_[record].slot, polygon);
         }
         for (size_t i = 0; i < count; ++i)
             stage(edits[i].record, staging);
@@ -193,18 +133,18 @@ void LightTable::update(std::span<const CndLightId> ids, std::span<const CndLigh
 void LightTable::remove(std::span<const CndLightId> ids, const Staging& staging) noexcept
 {
     for (const CndLightId id : ids)
-        remove(slotOf(id), staging);
+        remove(gpu::IdTable::slotOf(id), staging);
 }
 
 void LightTable::remove(uint32_t slot, const Staging& staging) noexcept
 {
-    const uint32_t record = recordOf_[slot], last = count() - 1;
+    const uint32_t record = ids_.place(slot), last = count() - 1;
     if (const uint32_t polygon = polygonOf(record); polygon != noPolygon)
         polygons_.remove(polygon);
     if (record != last) {
         records_[record] = records_[last];
         places_[record].slot = places_[last].slot;
-        recordOf_[places_[record].slot] = record;
+        ids_.place(places_[record].slot) = record;
         stage(record, staging);
     }
     if (isStaged(last)) { // another one takes its place among the staged
@@ -215,8 +155,7 @@ void LightTable::remove(uint32_t slot, const Staging& staging) noexcept
     }
     records_.pop_back();
     places_.pop_back();
-    recordOf_[slot] = noRecord;
-    freeSlots_.push_back(slot);
+    ids_.remove(slot);
 }
 
 LightTable::Upload LightTable::take() noexcept

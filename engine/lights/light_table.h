@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "candelabra/candelabra.h"
+#include "gpu/id_table.h"
 #include "lights/light_order.h"
 #include "lights/polygon_table.h"
 #include "shared/lighting_data.h"
@@ -29,7 +30,10 @@ public:
     void reserveSet(size_t count);
     void reserveEdits(size_t removed, size_t added);
     // Throws gpu::Failure naming `call` and an id that no light has, or that is given twice.
-    void check(const char* call, std::span<const CndLightId> ids);
+    void check(const char* call, std::span<const CndLightId> ids)
+    {
+        ids_.check(call, "light of the set", ids);
+    }
 
     // The memory in which records wait for their upload. It is written in order where many are
     // written, whole records at a time, and never read: it may be memory that the CPU does not
@@ -46,7 +50,7 @@ public:
     void remove(std::span<const CndLightId> ids, const Staging& staging) noexcept;
 
     uint32_t count() const { return uint32_t(records_.size()); }
-    uint32_t typeOf(CndLightId id) const { return typeOfRecord(recordOf_[slotOf(id)]); }
+    uint32_t typeOf(CndLightId id) const { return typeOfRecord(recordOf(id)); }
     // Estimates the extent from at most 1024 lights. It leaves out the outermost of these, so that
     // one far light does not make the grid coarse.
     LightExtent extent() const noexcept;
@@ -62,13 +66,13 @@ public:
     void stageAnew(const Staging& staging) const noexcept;
 
 private:
-    static constexpr uint32_t noRecord = UINT32_MAX, noPolygon = UINT32_MAX;
+    static constexpr uint32_t noPolygon = UINT32_MAX;
     struct Place {
         uint32_t slot;
         uint32_t staged; // index among the staged records, if staged_ says so too
     };
 
-    static uint32_t slotOf(CndLightId id) { return uint32_t(id); }
+    uint32_t recordOf(CndLightId id) const { return ids_.place(gpu::IdTable::slotOf(id)); }
     uint32_t typeOfRecord(uint32_t record) const
     {
         return records_[record].flags & gpu::LIGHT_TYPE_MASK;
@@ -87,19 +91,14 @@ private:
                   uint32_t before) noexcept;
     void stage(uint32_t record, const Staging& staging) noexcept;
     void stageAt(uint32_t at, uint32_t record, const Staging& staging) noexcept;
-    CndLightId addSlot(uint32_t record) noexcept;
     void remove(uint32_t slot, const Staging& staging) noexcept;
 
     PolygonTable& polygons_;
     std::vector<gpu::LightRecord> records_; // as the device has them after the next upload
     std::vector<Place> places_;             // indexed by record
-    std::vector<uint32_t> recordOf_;        // indexed by slot, which is the low half of an id
-    std::vector<uint32_t> generations_;     // indexed by slot: the high half of the id
-    std::vector<uint32_t> freeSlots_;
-    std::vector<uint32_t> staged_; // the staged records, unless all are
-    bool all_ = false;             // all records are staged, in order
-    std::vector<bool> seen_;       // used by check(); indexed by slot; false between calls
-    uint32_t generation_ = 0;      // generation of the light added last
+    gpu::IdTable ids_;                      // whose places are records
+    std::vector<uint32_t> staged_;          // the staged records, unless all are
+    bool all_ = false;                      // all records are staged, in order
 };
 
 } // namespace candelabra::lighting
