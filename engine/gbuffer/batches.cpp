@@ -10,7 +10,7 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
-#include "gbuffer/camera_terms.h"
+#include "gpu/double_single.h"
 
 namespace candelabra::gbuffer
 {
@@ -117,7 +117,7 @@ std::vector<Keyed> sortInstances(const GeometryDesc& desc, const std::vector<Pac
 
 gpu::InstanceRecord instanceRecord(const glm::dmat4& worldFromObject, uint32_t material)
 {
-    const DoubleSingle position(worldFromObject[3]);
+    const gpu::DoubleSingle position(worldFromObject[3]);
     return {worldFromObject[0], position.hi.x, worldFromObject[1], position.hi.y,
             worldFromObject[2], position.hi.z, position.lo,        float(material)};
 }
@@ -138,7 +138,7 @@ double largestScale(const glm::dmat4& worldFromObject)
 gpu::InstanceBounds instanceBounds(const glm::dmat4& worldFromObject, const PackedMesh& mesh)
 {
     const glm::dvec3 low = glm::make_vec3(mesh.min), high = glm::make_vec3(mesh.max);
-    const DoubleSingle center(worldFromObject * glm::dvec4((low + high) * 0.5, 1));
+    const gpu::DoubleSingle center(worldFromObject * glm::dvec4((low + high) * 0.5, 1));
     const glm::dvec3 half = (high - low) * 0.5;
     glm::dvec3 extent(0);
     for (int column = 0; column < 3; ++column)

@@ -12,24 +12,6 @@
 namespace candelabra::gbuffer
 {
 
-namespace
-{
-
-// Returns the part of x that a float loses. g++ 12.2 vectorises double(float(x)) of neighbouring
-// members to x, so that the result would be 0 (-O2, x86-64); volatile keeps the rounding.
-float floatRemainder(double x)
-{
-    const volatile float kept = float(x);
-    return float(x - double(kept));
-}
-
-} // namespace
-
-DoubleSingle::DoubleSingle(const glm::dvec3& x)
-    : hi(x), lo(floatRemainder(x.x), floatRemainder(x.y), floatRemainder(x.z))
-{
-}
-
 CameraTerms::CameraTerms(const CndCamera& camera, float clearDepth)
     : clipFromView(glm::make_mat4(camera.clipFromView)),
       viewFromWorld(glm::dmat3(glm::make_mat4(camera.viewFromWorld))),

@@ -14,12 +14,6 @@
 namespace candelabra::gbuffer
 {
 
-// A position as the sum of two floats, x = hi + lo, with a relative error of 2^-48.
-struct DoubleSingle {
-    glm::vec3 hi, lo;
-    explicit DoubleSingle(const glm::dvec3& x);
-};
-
 struct CameraTerms {
     // Accepts any perspective or orthographic clipFromView; `clearDepth` (0 or 1) is the depth of
     // the far end.

@@ -17,6 +17,7 @@
 #include "gbuffer/geometry_impl.h"
 #include "gbuffer/pass_barriers.h"
 #include "gbuffer/pipelines.h"
+#include "gpu/double_single.h"
 #include "gpu/kernel.h"
 
 namespace candelabra::gbuffer
@@ -66,7 +67,7 @@ gpu::CullInstancesFrame cullFrame(const CameraTerms& camera, const FrameInputs& 
     gpu::CullInstancesFrame f{};
     for (size_t i = 0; i < camera.planes.size(); ++i)
         f.planes[i] = in.cullInstances ? glm::vec4(camera.planes[i]) : glm::vec4(0, 0, 0, 1);
-    const DoubleSingle position(camera.position);
+    const gpu::DoubleSingle position(camera.position);
     const glm::dmat3 worldFromView = glm::transpose(camera.viewFromWorld);
     f.cameraHi = position.hi;
     f.cameraLo = position.lo;
@@ -82,7 +83,7 @@ gpu::CullInstancesFrame cullFrame(const CameraTerms& camera, const FrameInputs& 
 gpu::CullTrianglesFrame trianglesFrame(const CameraTerms& camera, const FrameInputs& in,
                                        uint32_t subPixelBits, uint32_t pieces)
 {
-    const DoubleSingle position(camera.position);
+    const gpu::DoubleSingle position(camera.position);
     return {.viewFromWorld = glm::mat3(camera.viewFromWorld),
             .clipFromView = camera.clipFromView,
             .cameraHi = position.hi,
@@ -283,7 +284,7 @@ void GBuffer::Impl::drawMeshes(VkCommandBuffer cmd, const GeometryImpl& g,
                                const CameraTerms& camera, const FrameInputs& in,
                                bool emissive) const noexcept
 {
-    const DoubleSingle position(camera.position);
+    const gpu::DoubleSingle position(camera.position);
     const gpu::MeshParams params{glm::mat3(camera.viewFromWorld), camera.clipFromView, position.hi,
                                  position.lo, in.coverageFrame};
     const VkPipelineLayout layout = pipelines.meshLayout.get();

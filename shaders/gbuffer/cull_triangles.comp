@@ -8,7 +8,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
-#include "gbuffer/camera_relative.glsl"
+#include "lib/camera_relative.glsl"
 #include "gbuffer/sample_bounds.glsl"
 #include "gbuffer/slack.glsl"
 #include "shared/raster.h"

@@ -4,7 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
-#include "gbuffer/camera_relative.glsl"
+#include "lib/camera_relative.glsl"
 #include "gbuffer/mesh_varyings.glsl"
 #include "gbuffer/material_record.glsl"
 #include "lib/gbuffer.glsl"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Positions of instances relative to the camera.
-#ifndef CND_GBUFFER_CAMERA_RELATIVE
-#define CND_GBUFFER_CAMERA_RELATIVE
+#ifndef CND_LIB_CAMERA_RELATIVE
+#define CND_LIB_CAMERA_RELATIVE
 
 // Returns the position hi + lo minus the camera's: the exact difference of the high parts (Knuth's
 // TwoSum), plus the rounding error and the low parts.
