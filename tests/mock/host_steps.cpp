@@ -338,6 +338,7 @@ void Host::destroy()
     targets.reset();
     geometry.reset();
     rasterDevice.reset();
+    occluders.reset();
 }
 
 const std::vector<Step>& steps()
@@ -397,6 +398,10 @@ std::string runSteps(const std::vector<Step>& steps, Host& h, CndResult expected
         }
         if (h.geometry) { // the previous emitters are unchanged too: everything that is drawn must
                           // be alive
+            EXPECT_EQ(recordAgain(steps, h, &error), CND_SUCCESS) << error.message;
+        }
+        EXPECT_EQ(h.countedOccluders(), h.occluderCount);
+        if (h.occluderCount) {
             EXPECT_EQ(recordAgain(steps, h, &error), CND_SUCCESS) << error.message;
         }
         result = runStep(step, h, &error);

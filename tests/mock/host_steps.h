@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A host on the mock driver that, step by step, creates all modules, sets lights of several kinds,
-// edits them, records and asks for statistics; and a host that draws with the raster pass.
+// edits them, records and asks for statistics; a host that draws with the raster pass; and one of
+// the set of occluders.
 #pragma once
 
 #include <functional>
@@ -15,6 +16,8 @@ namespace candelabra::test
 
 // The second number of polygons is more than there is room for after the first one.
 constexpr uint32_t firstPolygons = 2, morePolygons = 70;
+
+struct OccluderModule; // mock/occluder_steps.cpp
 
 struct Host {
     MockVulkan vulkan;
@@ -32,6 +35,11 @@ struct Host {
     std::unique_ptr<gbuffer::Targets> targets;
     std::unique_ptr<gbuffer::Geometry> geometry;
 
+    // Used by occluderSteps() only.
+    std::shared_ptr<OccluderModule> occluders;
+    uint32_t occluderCount = 0; // as the calls that succeeded leave it
+    uint32_t countedOccluders() const;
+
     ~Host() { destroy(); }
     void destroy();
 };
@@ -43,16 +51,17 @@ struct Step {
 };
 
 const std::vector<Step>& steps();
-const std::vector<Step>& rasterSteps(); // mock/raster_steps.cpp
+const std::vector<Step>& rasterSteps();   // mock/raster_steps.cpp
+const std::vector<Step>& occluderSteps(); // mock/occluder_steps.cpp
 
 // Runs a step; what it recorded is submitted and finishes at once.
 CndResult runStep(const Step& step, Host& h, CndError* error);
-// Runs again the step named "record" of steps() or of rasterSteps().
+// Runs again the step named "record".
 CndResult recordAgain(const std::vector<Step>& steps, Host& h, CndError* error);
 
 // Runs all steps. If one of them fails, which sets h.vulkan.failed, it must report `expected`,
-// leave the lights as they were, and succeed when it is run again. Returns the name of the failed
-// step.
+// leave lights and occluders as they were, and succeed when it is run again. Returns the name of
+// the failed step.
 std::string runSteps(const std::vector<Step>& steps, Host& h, CndResult expected,
                      VkResult expectedVulkan);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Makes every Vulkan call that can fail do so, one by one, in a host that creates all modules, sets
-// lights of several kinds, records and asks for statistics, and in a host that draws with the
-// raster pass. Then does the same with heap allocations. Each time the step must return a result
-// code and a sentence, leak nothing, and succeed when it is run again.
+// lights of several kinds, records and asks for statistics, in a host that draws with the raster
+// pass, and in one of the set of occluders. Then does the same with heap allocations. Each time the
+// step must return a result code and a sentence, leak nothing, and succeed when it is run again.
 #include <array>
 #include <iostream>
 
@@ -19,6 +19,7 @@ namespace
 struct Family {
     const char* name;
     const std::vector<Step>& (*steps)();
+    uint64_t calls, allocations;      // the steps make more than so many
     std::vector<const char*> failing; // names of steps that can fail
     std::vector<const char*> functions;
 };
@@ -26,6 +27,8 @@ struct Family {
 const Family families[] = {
     {"Modules",
      steps,
+     100,
+     1000,
      {"create lighting", "create view", "create exposure", "create environment", "set lights",
       "set more lights of another type", "add lights of another type", "set lights of the device",
       "add lights beside those of the device", "lighting statistics", "exposure statistics",
@@ -37,6 +40,8 @@ const Family families[] = {
       "GetQueryPoolResults"}},
     {"RasterPass",
      rasterSteps,
+     100,
+     1000,
      {"create raster pass", "create targets", "create geometry", "set emitters",
       "set more emitters", "raster statistics"},
      {"CreateBuffer", "AllocateMemory", "BindBufferMemory", "MapMemory", "CreateBufferView",
@@ -44,6 +49,14 @@ const Family families[] = {
       "CreatePipelineLayout", "CreateDescriptorSetLayout", "CreateDescriptorPool",
       "AllocateDescriptorSets", "CreateQueryPool", "CreateImage", "CreateImageView",
       "BindImageMemory", "CreateSampler", "GetQueryPoolResults"}},
+    {"Occluders",
+     occluderSteps,
+     80,
+     200,
+     {"create occluders", "add mesh", "add occluders", "add a larger mesh", "add more occluders"},
+     {"CreateBuffer", "AllocateMemory", "BindBufferMemory", "MapMemory", "CreateShaderModule",
+      "CreateComputePipelines", "CreatePipelineLayout", "CreateDescriptorSetLayout",
+      "CreateDescriptorPool", "AllocateDescriptorSets"}},
 };
 
 // With the sanitizers runs take ten times as long, and tests do less there unless --full is given.
@@ -89,7 +102,7 @@ TEST_P(Faults, EveryVulkanCallFailsInTurn)
         calls = h.vulkan.failableCalls.size();
         expectClean(h, "without faults");
     }
-    ASSERT_GT(calls, 100u);
+    ASSERT_GT(calls, GetParam().calls);
     const std::vector<uint64_t> failing = callsToFail(all_);
     std::cout << failing.size() << " of " << calls << " calls that can fail\n";
     std::map<std::string, int> failures; // by step
@@ -128,7 +141,7 @@ TEST_P(Faults, TheHeapFailsInTurn)
             runStep(step, h, nullptr);
         total = allocations.count();
     }
-    ASSERT_GT(total, 1000u);
+    ASSERT_GT(total, GetParam().allocations);
     std::cout << total << " allocations\n";
     // Tries the first allocations one by one, then ever larger strides: most are similar, from
     // reading SPIR-V.

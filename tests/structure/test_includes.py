@@ -35,6 +35,7 @@ FOLDERS = [
     ("engine/tables", ["engine/gpu", "shaders/shared", "candelabra_shaders.h"]),
     ("engine/surfaces", ["engine/gpu", "shaders/shared", PUBLIC, "candelabra_shaders.h"]),
     ("engine/lights", ["engine/tables", "engine/gpu", "shaders/shared", PUBLIC, "candelabra_shaders.h"]),
+    ("engine/occluders", ["engine/gpu", "shaders/shared", PUBLIC, "candelabra_shaders.h"]),
     ("engine/clusters", ["engine/lights", "engine/surfaces", "engine/tables", "engine/gpu", "shaders/shared",
                          PUBLIC, "candelabra_shaders.h"]),
     ("engine/shading", ["engine/clusters", "engine/lights", "engine/surfaces", "engine/tables", "engine/gpu",

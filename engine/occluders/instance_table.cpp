@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "occluders/instance_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/mat3x3.hpp>
+
+#include "gpu/double_single.h"
+#include "shared/lighting_data.h"
+
+namespace candelabra::lighting
+{
+namespace
+{
+
+constexpr VkDeviceSize occluderRecordBytes = sizeof(gpu::OccluderRecord);
+constexpr VkDeviceSize nodeBytes = sizeof(gpu::OccluderNode);
+// A tree is made anew when the surface of its nodes has grown by this factor, or when so large a
+// share of its places is without an instance.
+constexpr double surfaceGrowth = 2;
+constexpr uint32_t removedShare = 2; // one half
+
+glm::dvec3 positionOf(const gpu::OccluderRecord& record)
+{
+    return glm::dvec3(record.positionHi) + glm::dvec3(record.positionLo);
+}
+
+} // namespace
+
+InstanceTable::InstanceTable(const gpu::Device& device, gpu::Recordings& recordings,
+                             MeshTable& meshes, uint32_t capacity)
+    : meshes_(meshes),
+      recordBuffer_(device, recordings, "occluder records", capacity * occluderRecordBytes),
+      nodeBuffer_(device, recordings, "occluder instance nodes", 2 * capacity * nodeBytes)
+{
+}
+
+// Any edit may lead to a new tree, so that there must be room for the upload of everything.
+void InstanceTable::reserve(size_t removed, size_t added)
+{
+    const size_t most = placed_.size() + added;
+    ids_.reserve(removed, added);
+    gpu::reserveMore(placed_, added);
+    gpu::reserveMore(records_, added);
+    const size_t room = placed_.capacity();
+    items_.reserve(room);
+    sortedPlaced_.reserve(room);
+    sortedRecords_.reserve(std::max(room, records_.capacity()));
+    coordinates_.reserve(room);
+    leaves_.reserve(room);
+    nodes_.reserve(2 * room);
+    parents_.reserve(2 * room);
+    if (!most)
+        return;
+    recordBuffer_.reserve(most * occluderRecordBytes, most * occluderRecordBytes, 1);
+    nodeBuffer_.reserve(2 * most * nodeBytes, 2 * most * nodeBytes, 1);
+}
+
+void InstanceTable::add(std::span<const OccluderInstance> instances, OccluderId* ids) noexcept
+{
+    if (!count())
+        layers_ = 0;
+    dropTree();
+    for (size_t i = 0; i < instances.size(); ++i) {
+        const uint32_t place = places();
+        ids[i] = ids_.add(place);
+        placed_.push_back({.slot = gpu::IdTable::slotOf(ids[i]), .mesh = instances[i].mesh});
+        ++meshes_[instances[i].mesh].users;
+        records_.emplace_back();
+        write(place, instances[i]);
+    }
+}
+
+void InstanceTable::update(std::span<const OccluderId> ids,
+                           std::span<const OccluderInstance> instances) noexcept
+{
+    for (size_t i = 0; i < ids.size(); ++i) {
+        const uint32_t place = ids_.place(gpu::IdTable::slotOf(ids[i]));
+        --meshes_[placed_[place].mesh].users;
+        ++meshes_[instances[i].mesh].users;
+        placed_[place].mesh = instances[i].mesh;
+        write(place, instances[i]);
+        fitAncestors(place);
+    }
+}
+
+void InstanceTable::remove(std::span<const OccluderId> ids) noexcept
+{
+    for (const OccluderId id : ids)
+        remove(gpu::IdTable::slotOf(id));
+    if (treeIsMade_ && removed_ > places() / removedShare)
+        dropTree();
+}
+
+void InstanceTable::remove(uint32_t slot) noexcept
+{
+    const uint32_t place = ids_.place(slot);
+    --meshes_[placed_[place].mesh].users;
+    ids_.remove(slot);
+    if (treeIsMade_) {
+        placed_[place].slot = gpu::IdTable::none;
+        records_[place].flags = 0;
+        recordBuffer_.markChanged(place * occluderRecordBytes, occluderRecordBytes);
+        ++removed_;
+        return;
+    }
+    moveTo(place, places() - 1);
+    placed_.pop_back();
+    records_.pop_back();
+}
+
+void InstanceTable::fit(OccluderMeshId mesh) noexcept
+{
+    const auto isOfMesh = [&](uint32_t place) {
+        return placed_[place].slot != gpu::IdTable::none && placed_[place].mesh == mesh;
+    };
+    for (uint32_t place = 0; place < places(); ++place)
+        if (isOfMesh(place))
+            setBox(place);
+    for (uint32_t place = 0; treeIsMade_ && place < places(); ++place)
+        if (isOfMesh(place))
+            fitAncestors(place);
+}
+
+void InstanceTable::write(uint32_t place, const OccluderInstance& instance) noexcept
+{
+    const MeshTable::Mesh& mesh = meshes_[instance.mesh];
+    const double* const m = instance.worldFromMesh;
+    const gpu::DoubleSingle position(glm::dvec3(m[3], m[7], m[11]));
+    gpu::OccluderRecord& record = records_[place];
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column)
+            record.worldFromLocal[column][row] = float(m[4 * row + column]);
+    record.positionHi = position.hi;
+    record.positionLo = position.lo;
+    record.firstNode = mesh.firstNode;
+    record.firstTriangle = mesh.firstTriangle;
+    const uint32_t layers = instance.layers ? instance.layers : gpu::ALL_LAYERS;
+    record.flags = layers | 1u << (gpu::OCCLUDER_LAYERS_SHIFT + instance.occluderLayer);
+    record.surfaceError = instance.surfaceError;
+    layers_ |= layers;
+    setBox(place);
+    if (treeIsMade_)
+        recordBuffer_.markChanged(place * occluderRecordBytes, occluderRecordBytes);
+}
+
+// Sets the box in the world around the box of the mesh. It is wider by what a float32 transform of
+// its points may add.
+void InstanceTable::setBox(uint32_t place) noexcept
+{
+    constexpr double rounding = 1e-6;
+    const gpu::OccluderRecord& record = records_[place];
+    const Box mesh = boxOf(meshes_.nodesOf(meshes_[placed_[place].mesh])[0]);
+    const glm::dvec3 low(mesh.low), high(mesh.high);
+    glm::dvec3 centre = positionOf(record), half(0);
+    for (int axis = 0; axis < 3; ++axis) {
+        const glm::dvec3 column(record.worldFromLocal[axis]);
+        const double farthest = std::max(std::abs(low[axis]), std::abs(high[axis]));
+        centre += column * ((low[axis] + high[axis]) / 2);
+        half += glm::abs(column) * ((high[axis] - low[axis]) / 2 + rounding * farthest);
+    }
+    placed_[place].low = centre - half;
+    placed_[place].high = centre + half;
+}
+
+// Returns the box of an instance relative to the tree's origin, rounded outwards.
+Box InstanceTable::boxAt(uint32_t place) const noexcept
+{
+    Box box;
+    for (int axis = 0; axis < 3; ++axis) {
+        box.low[axis] = std::nextafter(float(placed_[place].low[axis] - origin_[axis]), -FLT_MAX);
+        box.high[axis] = std::nextafter(float(placed_[place].high[axis] - origin_[axis]), FLT_MAX);
+    }
+    return box;
+}
+
+void InstanceTable::fitAncestors(uint32_t place) noexcept
+{
+    if (!treeIsMade_)
+        return;
+    for (uint32_t node = leaves_[place];; node = parents_[node]) {
+        const Box before = boxOf(nodes_[node]);
+        const Box box = fittedBox(nodes_, node, [&](uint32_t i) { return boxAt(i); });
+        if (box == before)
+            return;
+        nodes_[node].low = box.low;
+        nodes_[node].high = box.high;
+        nodeBuffer_.markChanged(node * nodeBytes, nodeBytes);
+        surface_ += halfSurface(box) - halfSurface(before);
+        if (node == 0)
+            break;
+    }
+    if (surface_ > surfaceGrowth * surfaceAtFirst_)
+        dropTree();
+}
+
+// Leaves it to the next recording to make the tree anew. Places without an instance vanish.
+void InstanceTable::dropTree() noexcept
+{
+    if (!treeIsMade_)
+        return;
+    treeIsMade_ = false;
+    uint32_t kept = 0;
+    for (uint32_t place = 0; place < places(); ++place)
+        if (placed_[place].slot != gpu::IdTable::none)
+            moveTo(kept++, place);
+    placed_.resize(kept);
+    records_.resize(kept);
+    removed_ = 0;
+}
+
+void InstanceTable::moveTo(uint32_t place, uint32_t from) noexcept
+{
+    if (place == from)
+        return;
+    placed_[place] = placed_[from];
+    records_[place] = records_[from];
+    ids_.place(placed_[place].slot) = place;
+}
+
+void InstanceTable::makeTree() noexcept
+{
+    chooseOrigin();
+    items_.resize(places());
+    for (uint32_t place = 0; place < places(); ++place)
+        items_[place] = {boxAt(place), place};
+    buildTree(items_, gpu::OCCLUDER_LEAF_INSTANCES, nodes_);
+    sortByTree();
+    findParents();
+    surface_ = 0;
+    for (const gpu::OccluderNode& node : nodes_)
+        surface_ += halfSurface(boxOf(node));
+    surfaceAtFirst_ = surface_;
+    recordBuffer_.markChanged(0, records_.size() * occluderRecordBytes);
+    nodeBuffer_.markChanged(0, nodes_.size() * nodeBytes);
+    treeIsMade_ = true;
+}
+
+// Chooses the median of the boxes' centres, so that coordinates relative to it are small wherever
+// most instances are.
+void InstanceTable::chooseOrigin() noexcept
+{
+    coordinates_.resize(places());
+    const auto median = coordinates_.begin() + places() / 2;
+    for (int axis = 0; axis < 3 && places(); ++axis) {
+        for (uint32_t place = 0; place < places(); ++place)
+            coordinates_[place] = (placed_[place].low[axis] + placed_[place].high[axis]) / 2;
+        std::nth_element(coordinates_.begin(), median, coordinates_.end());
+        origin_[axis] = *median;
+    }
+}
+
+void InstanceTable::sortByTree() noexcept
+{
+    sortedPlaced_.resize(places());
+    sortedRecords_.resize(places());
+    layers_ = 0;
+    for (uint32_t place = 0; place < places(); ++place) {
+        sortedPlaced_[place] = placed_[items_[place].index];
+        sortedRecords_[place] = records_[items_[place].index];
+        ids_.place(sortedPlaced_[place].slot) = place;
+        layers_ |= sortedRecords_[place].flags & gpu::ALL_LAYERS;
+    }
+    placed_.swap(sortedPlaced_);
+    records_.swap(sortedRecords_);
+}
+
+void InstanceTable::findParents() noexcept
+{
+    parents_.assign(nodes_.size(), 0);
+    leaves_.resize(places());
+    for (uint32_t node = 0; node < nodes_.size(); ++node) {
+        if (nodes_[node].leaf)
+            for (uint32_t place = leafFirst(nodes_[node]); place < leafEnd(nodes_[node]); ++place)
+                leaves_[place] = node;
+        else
+            parents_[node + 1] = parents_[nodes_[node + 1].skip] = node;
+    }
+}
+
+void InstanceTable::recordUpload(const gpu::Frame& frame, uint64_t recording) noexcept
+{
+    if (!treeIsMade_)
+        makeTree();
+    recordBuffer_.recordUpload(frame, recording, std::as_bytes(std::span(records_)));
+    nodeBuffer_.recordUpload(frame, recording, std::as_bytes(std::span(nodes_)));
+}
+
+} // namespace candelabra::lighting

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "occluders/mesh_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+namespace candelabra::lighting
+{
+namespace
+{
+
+constexpr uint32_t positionBytes = 3 * sizeof(float);
+constexpr float maxPosition = 1e15f;
+constexpr uint32_t maxTriangles = 1u << 28; // of a mesh: leaves hold the first one's index
+
+// The positions of a mesh in the host's memory.
+class Positions
+{
+public:
+    Positions(const float* first, uint32_t stride, uint32_t count)
+        : first_(first), stride_((stride ? stride : positionBytes) / sizeof(float)), count_(count)
+    {
+    }
+    // -0 becomes +0, so that equal positions have equal bits.
+    glm::vec3 operator[](uint32_t i) const
+    {
+        const float* const p = first_ + size_t(i) * stride_;
+        return glm::vec3(p[0], p[1], p[2]) + 0.0f;
+    }
+    gpu::OccluderTriangle triangle(const glm::uvec3& corners) const
+    {
+        return {{(*this)[corners.x], (*this)[corners.y], (*this)[corners.z]}};
+    }
+    // `name` is that of the first position, such as "mesh 3: positions".
+    void check(const std::string& name) const
+    {
+        for (uint32_t i = 0; i < count_; ++i) {
+            const float* const p = first_ + size_t(i) * stride_;
+            for (int axis = 0; axis < 3; ++axis)
+                if (!(std::abs(p[axis]) <= maxPosition)) // also for NaN
+                    gpu::failArgument(name + "[" + std::to_string(i) + "][" + std::to_string(axis) +
+                                      "] is " + std::to_string(p[axis]) +
+                                      ", must be finite and within 1e15");
+        }
+    }
+
+private:
+    const float* first_;
+    size_t stride_; // floats
+    uint32_t count_;
+};
+
+void checkStride(const std::string& name, uint32_t stride)
+{
+    if (stride && (stride < positionBytes || stride % sizeof(float)))
+        gpu::failArgument(name + "stride is " + std::to_string(stride) +
+                          ", must be 0 or a multiple of 4 that is at least 12");
+}
+
+void checkMesh(const OccluderMesh& mesh, size_t index)
+{
+    const std::string name = "cndAddOccluderMeshes: mesh " + std::to_string(index) + ": ";
+    if (!mesh.positions)
+        gpu::failArgument(name + "positions is null");
+    checkStride(name, mesh.stride);
+    if (mesh.triangleCount < 1 || mesh.triangleCount > maxTriangles)
+        gpu::failArgument(name + "triangleCount is " + std::to_string(mesh.triangleCount) +
+                          ", must be 1..2^28");
+    const uint32_t corners = 3 * mesh.triangleCount;
+    if (!mesh.indices && mesh.vertexCount != corners)
+        gpu::failArgument(name + "vertexCount is " + std::to_string(mesh.vertexCount) +
+                          ", must be 3 triangleCount = " + std::to_string(corners) +
+                          " without indices");
+    for (uint32_t i = 0; mesh.indices && i < corners; ++i)
+        if (mesh.indices[i] >= mesh.vertexCount)
+            gpu::failArgument(name + "indices[" + std::to_string(i) + "] is " +
+                              std::to_string(mesh.indices[i]) + ", must be below vertexCount, " +
+                              std::to_string(mesh.vertexCount));
+    Positions(mesh.positions, mesh.stride, mesh.vertexCount).check(name + "positions");
+}
+
+void requireRange(const gpu::Device& device, uint64_t count, uint64_t elementBytes)
+{
+    if (const uint64_t room = device.limits.maxStorageBufferRange; count * elementBytes > room)
+        gpu::failUnsupported("cndAddOccluderMeshes: the meshes need a buffer of " +
+                             std::to_string(count * elementBytes) +
+                             " bytes, more than the device's maxStorageBufferRange, " +
+                             std::to_string(room));
+}
+
+Box boxOf(const gpu::OccluderTriangle& triangle)
+{
+    Box box;
+    for (const glm::vec3& corner : triangle.corners)
+        box.add(corner);
+    return box;
+}
+
+} // namespace
+
+// A mesh that is not in the table yet.
+struct MeshTable::Built {
+    std::vector<gpu::OccluderNode> nodes;
+    std::vector<gpu::OccluderTriangle> triangles;
+    Mesh mesh;
+};
+
+MeshTable::Built MeshTable::build(const OccluderMesh& mesh)
+{
+    const Positions positions(mesh.positions, mesh.stride, mesh.vertexCount);
+    const auto cornersOf = [&](uint32_t triangle) {
+        const uint32_t first = 3 * triangle;
+        const uint32_t* const i = mesh.indices ? mesh.indices + first : nullptr;
+        return i ? glm::uvec3(i[0], i[1], i[2]) : glm::uvec3(first, first + 1, first + 2);
+    };
+    std::vector<TreeItem> items(mesh.triangleCount);
+    for (uint32_t i = 0; i < mesh.triangleCount; ++i)
+        items[i] = {boxOf(positions.triangle(cornersOf(i))), i};
+    Built out;
+    buildTree(items, gpu::OCCLUDER_LEAF_TRIANGLES, out.nodes);
+    out.triangles.reserve(items.size());
+    out.mesh.corners.reserve(items.size());
+    for (const TreeItem& item : items) {
+        out.mesh.corners.push_back(cornersOf(item.index));
+        out.triangles.push_back(positions.triangle(out.mesh.corners.back()));
+    }
+    out.mesh.nodeCount = uint32_t(out.nodes.size());
+    out.mesh.triangleCount = mesh.triangleCount;
+    out.mesh.vertexCount = mesh.vertexCount;
+    out.mesh.users = 0;
+    return out;
+}
+
+// Makes room for the contents up to the end of all ranges. `changed` elements of them will be
+// written, in `count` ranges.
+template <typename T>
+void MeshTable::Pool<T>::reserve(VkDeviceSize changed, size_t count)
+{
+    const size_t end = std::max<size_t>(ranges.end(), contents.size());
+    gpu::reserveMore(contents, end - contents.size());
+    buffer.reserve(end * sizeof(T), changed * sizeof(T), count);
+}
+
+template <typename T>
+void MeshTable::Pool<T>::write(uint32_t first, std::span<const T> elements) noexcept
+{
+    contents.resize(std::max<size_t>(contents.size(), first + elements.size()));
+    std::ranges::copy(elements, contents.begin() + first);
+    changed(first, elements.size());
+}
+
+template <typename T>
+void MeshTable::Pool<T>::changed(uint32_t first, size_t count) noexcept
+{
+    buffer.markChanged(VkDeviceSize(first) * sizeof(T), count * sizeof(T));
+}
+
+MeshTable::MeshTable(const gpu::Device& device, gpu::Recordings& recordings, uint32_t capacity)
+    : device_(device),
+      nodes_{.buffer = {device, recordings, "occluder nodes",
+                        capacity * VkDeviceSize(sizeof(gpu::OccluderNode))}},
+      triangles_{.buffer = {device, recordings, "occluder triangles",
+                            capacity * VkDeviceSize(sizeof(gpu::OccluderTriangle))}}
+{
+}
+
+void MeshTable::giveBack(const Mesh& mesh) noexcept
+{
+    nodes_.ranges.give(mesh.firstNode, mesh.nodeCount);
+    triangles_.ranges.give(mesh.firstTriangle, mesh.triangleCount);
+}
+
+// Does everything in an addition that can fail, after the ranges have been taken.
+void MeshTable::makeRoom(std::span<const Built> built)
+{
+    requireRange(device_, nodes_.ranges.end(), sizeof(gpu::OccluderNode));
+    requireRange(device_, triangles_.ranges.end(), sizeof(gpu::OccluderTriangle));
+    VkDeviceSize nodes = 0, triangles = 0;
+    for (const Built& b : built) {
+        nodes += b.nodes.size();
+        triangles += b.triangles.size();
+    }
+    nodes_.reserve(nodes, built.size());
+    triangles_.reserve(triangles, built.size());
+}
+
+void MeshTable::add(std::span<const OccluderMesh> meshes, OccluderMeshId* ids)
+{
+    uint64_t triangles = 0;
+    for (size_t i = 0; i < meshes.size(); ++i) {
+        checkMesh(meshes[i], i);
+        triangles += meshes[i].triangleCount;
+    }
+    requireRange(device_, triangles, sizeof(gpu::OccluderTriangle));
+    std::vector<Built> built;
+    for (const OccluderMesh& mesh : meshes)
+        built.push_back(build(mesh));
+    ids_.reserve(0, built.size());
+    gpu::reserveMore(meshes_, built.size());
+    nodes_.ranges.reserve(built.size());
+    triangles_.ranges.reserve(built.size());
+    for (Built& b : built) {
+        b.mesh.firstNode = nodes_.ranges.take(b.mesh.nodeCount);
+        b.mesh.firstTriangle = triangles_.ranges.take(b.mesh.triangleCount);
+    }
+    try {
+        makeRoom(built);
+    } catch (...) {
+        for (const Built& b : built)
+            giveBack(b.mesh);
+        throw;
+    }
+    for (size_t i = 0; i < built.size(); ++i) { // nothing after this can fail
+        Built& b = built[i];
+        nodes_.write(b.mesh.firstNode, b.nodes);
+        triangles_.write(b.mesh.firstTriangle, b.triangles);
+        ids[i] = ids_.add(0);
+        const uint32_t slot = gpu::IdTable::slotOf(ids[i]);
+        if (slot == meshes_.size())
+            meshes_.emplace_back();
+        meshes_[slot] = std::move(b.mesh);
+    }
+}
+
+void MeshTable::replacePositions(OccluderMeshId id, const float* positions, uint32_t stride)
+{
+    const char* const call = "cndReplaceOccluderPositions";
+    check(call, {&id, 1});
+    checkStride(std::string(call) + ": ", stride);
+    const Mesh& mesh = (*this)[id];
+    const Positions from(positions, stride, mesh.vertexCount);
+    from.check(std::string(call) + ": positions");
+    nodes_.reserve(mesh.nodeCount, 1);
+    triangles_.reserve(mesh.triangleCount, 1);
+    gpu::OccluderTriangle* const triangles = &triangles_.contents[mesh.firstTriangle];
+    for (uint32_t i = 0; i < mesh.triangleCount; ++i)
+        triangles[i] = from.triangle(mesh.corners[i]);
+    const std::span nodes = std::span(nodes_.contents).subspan(mesh.firstNode, mesh.nodeCount);
+    fitTree(nodes, [&](uint32_t i) { return boxOf(triangles[i]); });
+    nodes_.changed(mesh.firstNode, mesh.nodeCount);
+    triangles_.changed(mesh.firstTriangle, mesh.triangleCount);
+}
+
+void MeshTable::remove(std::span<const OccluderMeshId> ids)
+{
+    check("cndRemoveOccluderMeshes", ids);
+    for (size_t i = 0; i < ids.size(); ++i)
+        if (const uint32_t users = (*this)[ids[i]].users)
+            gpu::failArgument("cndRemoveOccluderMeshes: ids[" + std::to_string(i) +
+                              "] is a mesh that " + std::to_string(users) + " occluders use");
+    ids_.reserve(ids.size(), 0);
+    for (const OccluderMeshId id : ids) {
+        giveBack((*this)[id]);
+        (*this)[id] = {};
+        ids_.remove(gpu::IdTable::slotOf(id));
+    }
+}
+
+void MeshTable::recordUpload(const gpu::Frame& frame, uint64_t recording) noexcept
+{
+    nodes_.buffer.recordUpload(frame, recording, std::as_bytes(std::span(nodes_.contents)));
+    triangles_.buffer.recordUpload(frame, recording, std::as_bytes(std::span(triangles_.contents)));
+}
+
+} // namespace candelabra::lighting

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// The meshes of occluders: their triangles in the order of their trees, and how these reach the
+// device.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "gpu/id_table.h"
+#include "gpu/uploaded_buffer.h"
+#include "occluders/free_ranges.h"
+#include "occluders/occluder_input.h"
+#include "occluders/occluder_tree.h"
+
+namespace candelabra::lighting
+{
+
+class MeshTable
+{
+public:
+    struct Mesh {
+        uint32_t firstNode, nodeCount;
+        uint32_t firstTriangle, triangleCount;
+        uint32_t vertexCount;
+        uint32_t users; // instances
+        // The vertices of each triangle, in the order of the tree: positions may be replaced.
+        std::vector<glm::uvec3> corners;
+    };
+
+    // `capacity`: triangles for which to make room. `device` and `recordings` must outlive the
+    // table.
+    MeshTable(const gpu::Device& device, gpu::Recordings& recordings, uint32_t capacity);
+
+    // Each call does all that it is asked for, or throws gpu::Failure and leaves the table as it
+    // was.
+    void add(std::span<const OccluderMesh> meshes, OccluderMeshId* ids);
+    // `positions`: as OccluderMesh::positions, as many as the mesh has.
+    void replacePositions(OccluderMeshId id, const float* positions, uint32_t stride);
+    void remove(std::span<const OccluderMeshId> ids);
+
+    bool has(OccluderMeshId id) const { return ids_.has(id); }
+    Mesh& operator[](OccluderMeshId id) { return meshes_[gpu::IdTable::slotOf(id)]; }
+    const Mesh& operator[](OccluderMeshId id) const { return meshes_[gpu::IdTable::slotOf(id)]; }
+    std::span<const gpu::OccluderNode> nodesOf(const Mesh& mesh) const
+    {
+        return std::span(nodes_.contents).subspan(mesh.firstNode, mesh.nodeCount);
+    }
+    // Everything that the device has after an upload.
+    std::span<const gpu::OccluderNode> allNodes() const { return nodes_.contents; }
+    std::span<const gpu::OccluderTriangle> allTriangles() const { return triangles_.contents; }
+
+    bool isChanged() const { return nodes_.buffer.isChanged() || triangles_.buffer.isChanged(); }
+    void recordUpload(const gpu::Frame& frame, uint64_t recording) noexcept;
+    const gpu::Buffer& nodes() const { return nodes_.buffer.buffer(); }
+    const gpu::Buffer& triangles() const { return triangles_.buffer.buffer(); }
+
+private:
+    // An array in which each mesh has a range.
+    template <typename T>
+    struct Pool {
+        std::vector<T> contents{};
+        FreeRanges ranges{};
+        gpu::UploadedBuffer buffer;
+
+        void reserve(VkDeviceSize changed, size_t count);
+        void write(uint32_t first, std::span<const T> elements) noexcept;
+        void changed(uint32_t first, size_t count) noexcept;
+    };
+    struct Built;
+    void check(const char* call, std::span<const OccluderMeshId> ids)
+    {
+        ids_.check(call, "occluder mesh", ids);
+    }
+    static Built build(const OccluderMesh& mesh);
+    void makeRoom(std::span<const Built> built);
+    void giveBack(const Mesh& mesh) noexcept;
+
+    const gpu::Device& device_;
+    gpu::IdTable ids_;
+    std::vector<Mesh> meshes_; // indexed by slot
+    Pool<gpu::OccluderNode> nodes_;
+    Pool<gpu::OccluderTriangle> triangles_;
+};
+
+} // namespace candelabra::lighting
