@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "fit/commands.h"
+#include "fit/point_sets.h"
 #include "io/error.h"
 #include "io/report.h"
 
@@ -75,6 +76,17 @@ void describeConic(CLI::App& app, fit::ConicSettings& s)
     conic->add_option("--json", s.json, "file to write all results to, as JSON");
 }
 
+void describePoints(CLI::App& app, uint32_t& moves)
+{
+    CLI::App* points =
+        app.add_subcommand("points", "Place the points of lights for which shadows are found, and "
+                                     "print shaders/shared/visibility_points.h");
+    points->add_option("--moves", moves, "tried moves per set of points")
+        ->check(CLI::Range(1000u, 1000000000u))
+        ->capture_default_str();
+    points->callback([&moves] { std::fputs(fit::visibilityPointsHeader(moves).c_str(), stdout); });
+}
+
 int printError(int exitCode, const char* sentence)
 {
     std::fprintf(stderr, "candelabra_fit: %s\n", sentence);
@@ -89,9 +101,12 @@ int main(int argc, char** argv)
     app.require_subcommand(1);
     fit::ConicSettings conic;
     describeConic(app, conic);
+    uint32_t moves = 3000000;
+    describePoints(app, moves);
     try {
         app.parse(argc, argv);
-        fit::runConic(conic, app::commandLine(argc, argv, "candelabra_fit"));
+        if (app.got_subcommand("conic"))
+            fit::runConic(conic, app::commandLine(argc, argv, "candelabra_fit"));
         return app::exitOk;
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? app::exitOk : app::exitUsage;
