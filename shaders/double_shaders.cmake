@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Makes C++ of the shaders that evaluate lights, so that tests and benchmarks can call the formulas that
+# Makes C++ of shaders, so that tests and benchmarks can call the formulas that
 # ship in double precision. GLSL is nearly C++ already: the text of a shader becomes part of the body of a
 # class, whose members are the functions and constants of the shader, and tools/formula/glsl.h has the types
 # and functions that GLSL has built in. These are the differences:
@@ -17,11 +17,11 @@
 
 include(${CMAKE_CURRENT_LIST_DIR}/host_shaders.cmake)
 
-# Writes double_shaders.h, which is to be included in the body of a class, to the folder `destination`, and
-# sets candelabra_double_shaders to the shaders that it is made of.
-function(candelabra_double_shaders destination)
+# candelabra_double_shaders(DESTINATION HEADER shader...) writes HEADER, which is to be included in the body of a
+# class, to the folder DESTINATION, and sets candelabra_double_shaders to the shaders that it is made of.
+function(candelabra_double_shaders destination header)
     set(root ${CMAKE_CURRENT_FUNCTION_LIST_DIR})
-    set(given shared/bench.h shared/conic_constants.h shading/light_walk.glsl bench/evaluate_classified.glsl)
+    set(given ${ARGN})
     candelabra_glsl_closure(files ${root} ${given})
     list(REMOVE_ITEM files shared/prelude.h)
     set(name ${candelabra_glsl_name})
@@ -48,6 +48,6 @@ function(candelabra_double_shaders destination)
     endforeach()
     list(TRANSFORM given REPLACE "(.+)" "#include \"double/\\1\"\n")
     string(CONCAT text ${given})
-    file(CONFIGURE OUTPUT ${destination}/double_shaders.h CONTENT "${text}" @ONLY)
+    file(CONFIGURE OUTPUT ${destination}/${header} CONTENT "${text}" @ONLY)
     set(candelabra_double_shaders ${files} PARENT_SCOPE)
 endfunction()

@@ -47,6 +47,10 @@ inline double atan(double x)
 {
     return std::atan(x);
 }
+inline double uintBitsToFloat(uint x)
+{
+    return double(std::bit_cast<float>(x));
+}
 inline uint findLSB(uint x)
 {
     return uint(std::countr_zero(x));

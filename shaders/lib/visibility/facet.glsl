@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// Facets: flat pieces that stand for light sources where shadows are found. A receiver tests whether
+// it sees certain points of the facet (points.glsl). Everything is relative to the receiver, in view
+// space.
+#ifndef CND_LIB_VISIBILITY_FACET
+#define CND_LIB_VISIBILITY_FACET
+
+#include "lib/math.glsl"
+#include "lib/visibility/points.glsl"
+
+// The side of the emitter towards the receiver, which occluders must be in front of. On the way to the
+// point (u, v) of the facet it lies at the share 1 / (1 + kappa g) of the way, with
+//   g = sqrt(1 - v^2 - (max(0, |u| - (1 - roundEnd)) / roundEnd)^2).
+struct FrontSurface {
+    float inverseDistance; // 1 over the unit of the facet's vectors, 1/m; 0: the facet is at infinity
+    float kappa;           // 0: the emitter is flat
+    float roundEnd;        // length of a tube's round end over half the length of the facet; spheres: 1
+};
+
+// The points of the facet are centre + u halfU + v halfV, with (u, v) from points.glsl. The vectors
+// are scaled so that none of their products overflows: in units of 1 / front.inverseDistance metres, or
+// in any unit if the facet is at infinity.
+struct Facet {
+    vec3 centre;
+    vec3 halfU;
+    vec3 halfV;
+    FrontSurface front;
+    uint shape;    // FACET_DISC, FACET_SQUARE or FACET_POINT
+    uvec2 members; // the points that belong to the emitter; none: all of the light is visible
+};
+
+// Facets have half axes of at least this length times their distance, so that their coordinates stay
+// within the range of float32.
+const float MIN_FACET_SIZE = 6.103515625e-5; // 2^-14
+// A facet is seen too flat to be tested if the determinant of its vectors is below this value times the
+// product of their lengths.
+const float MIN_FACET_SLOPE = 1e-5;
+// From this squared sine of its angular radius on, a sphere is lit as if the receiver were inside.
+const float MAX_FACET_SINE2 = 0.9999;
+
+// Sets s and t so that s, t and the unit vector a are perpendicular to each other: the world's axes x
+// and z, reflected by the mirror that exchanges y and -a. (Frisvad 2012, "Building an Orthonormal Basis
+// from a 3D Unit Vector Without Normalization", has this frame in other words.) Points thus keep their
+// places in the world when the camera turns. The frame has no seam, except where a is -y.
+void worldFrame(vec3 a, mat3 viewFromWorld, out vec3 s, out vec3 t)
+{
+    const vec3 h = a + viewFromWorld[1];
+    const vec3 k = h * (2.0 / max(dot(h, h), 1e-12));
+    s = viewFromWorld[0] - dot(h, viewFromWorld[0]) * k;
+    t = viewFromWorld[2] - dot(h, viewFromWorld[2]) * k;
+}
+
+// Returns a facet without kappa. u, v: unit vectors along the half axes; lengths in metres. For a facet
+// at infinity, everything is relative to the length of `centre`, and the caller sets inverseDistance.
+Facet makeFacet(vec3 centre, vec3 u, float lengthU, vec3 v, float lengthV, uint shape, uvec2 members)
+{
+    const float distance = length(centre);
+    const float scale = 1.0 / max(distance + max(lengthU, lengthV), 1e-30);
+    Facet f;
+    f.centre = centre * scale;
+    f.halfU = u * (max(lengthU, distance * MIN_FACET_SIZE) * scale);
+    f.halfV = v * (max(lengthV, distance * MIN_FACET_SIZE) * scale);
+    f.front = FrontSurface(scale, 0.0, 1.0);
+    f.shape = shape;
+    const float sides = length(f.halfU) * length(f.halfV) * length(f.centre);
+    const float slope = abs(dot(cross(f.halfU, f.halfV), f.centre));
+    // Written so that NaN and a receiver in the centre of the light are false.
+    const bool seen = slope > 0.0 && slope >= MIN_FACET_SLOPE * sides;
+    f.members = seen ? members : uvec2(0u);
+    return f;
+}
+
+// The circle that a sphere covers; exact.
+Facet sphereFacet(uint count, vec3 toLight, float radius, mat3 viewFromWorld)
+{
+    const float distance = max(length(toLight), 1e-30);
+    const float sine = radius / distance;
+    const float cos2 = 1.0 - sine * sine;
+    vec3 s, t;
+    worldFrame(toLight / distance, viewFromWorld, s, t);
+    const float r = radius * sqrt(max(cos2, 0.0));
+    const uvec2 members = cos2 > 1.0 - MAX_FACET_SINE2 ? allPoints(count, FACET_DISC) : uvec2(0u);
+    Facet f = makeFacet(toLight * cos2, s, r, t, r, FACET_DISC, members);
+    f.front.kappa = sine;
+    return f;
+}
+
+// direction: unit; sine: of the angular radius.
+Facet distantSphereFacet(uint count, vec3 direction, float sine, mat3 viewFromWorld)
+{
+    const float cos2 = 1.0 - sine * sine;
+    vec3 s, t;
+    worldFrame(direction, viewFromWorld, s, t);
+    const float r = sine * inversesqrt(max(cos2, 1.0 - MAX_FACET_SINE2));
+    const uvec2 members = cos2 > 1.0 - MAX_FACET_SINE2 ? allPoints(count, FACET_DISC) : uvec2(0u);
+    Facet f = makeFacet(direction, s, r, t, r, FACET_DISC, members);
+    f.front.inverseDistance = 0.0;
+    return f;
+}
+
+// Of a point or spot light.
+Facet pointFacet(vec3 toLight, mat3 viewFromWorld)
+{
+    const float distance = max(length(toLight), 1e-30);
+    vec3 s, t;
+    worldFrame(toLight / distance, viewFromWorld, s, t);
+    const float r = distance / 1024.0;
+    return makeFacet(toLight, s, r, t, r, FACET_POINT, allPoints(0u, FACET_POINT));
+}
+
+Facet directionalFacet(vec3 direction, mat3 viewFromWorld)
+{
+    Facet f = pointFacet(direction, viewFromWorld);
+    f.front.inverseDistance = 0.0;
+    return f;
+}
+
+// normal: unit. The frame of -normal keeps the seam away from discs that face downwards.
+Facet discFacet(uint count, vec3 toLight, vec3 normal, float radius, mat3 viewFromWorld)
+{
+    vec3 s, t;
+    worldFrame(-normal, viewFromWorld, s, t);
+    return makeFacet(toLight, s, radius, t, radius, FACET_DISC, allPoints(count, FACET_DISC));
+}
+
+// toLight: to the centre of the rectangle; axisU, axisV: its half axes in metres.
+Facet rectangleFacet(uint count, vec3 toLight, vec3 axisU, vec3 axisV)
+{
+    const float lengthU = length(axisU), lengthV = length(axisV);
+    return makeFacet(toLight, axisU / lengthU, lengthU, axisV / lengthV, lengthV, FACET_SQUARE,
+                     allPoints(count, FACET_SQUARE));
+}
+
+#endif

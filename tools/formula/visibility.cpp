@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "formula/visibility.h"
+
+#include <vector>
+
+#include <glm/matrix.hpp>
+
+#include "formula/glsl.h"
+#include "tables/point_table.h"
+
+// The body of the class holds the headers of shaders/shared a second time, in double precision.
+#undef GPU_BEGIN
+#undef GPU_END
+#undef GPU_SIZE
+#define GPU_BEGIN
+#define GPU_END
+#define GPU_SIZE(Type, bytes)
+
+namespace candelabra::formula
+{
+namespace
+{
+
+struct Visibility {
+    explicit Visibility(uint32_t points) : table_(points == 64 ? table64() : table32()) {}
+
+    uvec2 pointTable(uint i) const { return table_[i]; }
+
+#include "double_visibility.h"
+
+    Facet facetOf(const LightFacet& f) const
+    {
+        return {f.centre, f.halfU,
+                f.halfV,  FrontSurface{f.inverseDistance, f.kappa, f.roundEnd},
+                f.shape,  maskOf(f.members)};
+    }
+    static uvec2 maskOf(uint64_t bits)
+    {
+        return {uint(bits), uint(bits >> 32u)};
+    }
+    static uint64_t bitsOf(const uvec2& mask)
+    {
+        return uint64_t(mask.y) << 32u | mask.x;
+    }
+
+private:
+    static const std::vector<uvec2>& table64()
+    {
+        static const std::vector<uvec2> table = tables::pointTable(64);
+        return table;
+    }
+    static const std::vector<uvec2>& table32()
+    {
+        static const std::vector<uvec2> table = tables::pointTable(32);
+        return table;
+    }
+
+    const std::vector<uvec2>& table_;
+};
+
+} // namespace
+
+LightFacet lightFacet(uint32_t count, const Receiver& receiver, const Light& light,
+                      uint64_t polygonPoints)
+{
+    Visibility shaders(count);
+    const bool distant = (gpu::TYPES_WITH_POSITION >> light.type & 1u) == 0;
+    const Visibility::LightShape shape{vec3(light.shape.axisU), light.shape.radius,
+                                       vec3(light.shape.axisV), light.shape.flags};
+    const auto f = shaders.lightFacet(count, light.type,
+                                      distant ? light.centre : light.centre - receiver.position,
+                                      light.boundingRadius, shape, mat3(1.0));
+    return {count,
+            f.centre,
+            f.halfU,
+            f.halfV,
+            f.front.inverseDistance,
+            f.front.kappa,
+            f.front.roundEnd,
+            f.shape,
+            Visibility::bitsOf(f.members) & polygonPoints};
+}
+
+uint64_t hiddenPoints(const LightFacet& facet, const OccludingMesh& mesh, const Receiver& receiver,
+                      double ownDistance)
+{
+    Visibility shaders(facet.count);
+    const auto f = shaders.facetOf(facet);
+    if (facet.members == 0)
+        return 0;
+    const auto local = shaders.inSpaceOf(shaders.lightCoordinates(f), mesh.worldFromLocal);
+    const mat3 localFromWorld = glm::inverse(mesh.worldFromLocal);
+    const vec3 p = localFromWorld * receiver.position;
+    uvec2 lit = f.members;
+    for (const Triangle& t : mesh.triangles)
+        lit = lit & ~shaders.trianglePoints(facet.count, f.shape, f.front, local, localFromWorld,
+                                            t[0] - p, t[1] - p, t[2] - p, ownDistance, lit);
+    return facet.members & ~Visibility::bitsOf(lit);
+}
+
+BoxResult testBox(const LightFacet& facet, const OccludingMesh& mesh, const Receiver& receiver)
+{
+    Visibility shaders(facet.count);
+    const auto f = shaders.facetOf(facet);
+    const mat3 localFromView = glm::inverse(mesh.worldFromLocal);
+    const vec3 p = localFromView * receiver.position;
+    vec3 low(1e30), high(-1e30);
+    for (const Triangle& t : mesh.triangles)
+        for (const vec3& vertex : t) {
+            low = glm::min(low, vertex);
+            high = glm::max(high, vertex);
+        }
+    const vec3 slack(Visibility::BOX_SLACK * (1 + std::abs(p.x) + std::abs(p.y) + std::abs(p.z)));
+    low = low - p - slack;
+    high = high - p + slack;
+    const auto local = shaders.inSpaceOf(shaders.lightCoordinates(f), mesh.worldFromLocal);
+    return {shaders.coneTouches(shaders.facetCone(f.shape, f.front, local), low, high),
+            facet.members &
+                Visibility::bitsOf(shaders.boxPoints(facet.count, f.shape, local, low, high))};
+}
+
+glm::dvec2 visibleShares(const LightFacet& facet, uint64_t lit, const Receiver& receiver)
+{
+    Visibility shaders(facet.count);
+    const auto point = shaders.makeShadingPoint(
+        {receiver.n, vec3(0.0), vec3(0.0), 1.0, receiver.perceptualRoughness}, receiver.position,
+        receiver.v);
+    return shaders.visibleShares(shaders.facetOf(facet), facet.count, Visibility::maskOf(lit),
+                                 point);
+}
+
+} // namespace candelabra::formula

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// The shaders' facets, masks and visible shares of lights (shaders/lib/visibility), compiled as C++
+// in double precision.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "formula/formula.h"
+
+namespace candelabra::formula
+{
+
+// The facet of a light, as Facet in lib/visibility/facet.glsl.
+struct LightFacet {
+    uint32_t count = 64; // of points
+    glm::dvec3 centre, halfU, halfV;
+    double inverseDistance = 0, kappa = 0, roundEnd = 1;
+    uint32_t shape = 0;
+    uint64_t members = 0;
+};
+
+// `receiver` gives the position, and `light` the centre; view space is the world. A polygon is
+// given by the rectangle around it and the points in it.
+LightFacet lightFacet(uint32_t count, const Receiver& receiver, const Light& light,
+                      uint64_t polygonPoints = ~uint64_t{0});
+
+using Triangle = std::array<glm::dvec3, 3>;
+// A mesh whose vertices are in a space of its own; its transform is linear.
+struct OccludingMesh {
+    std::span<const Triangle> triangles;
+    glm::dmat3 worldFromLocal{1};
+};
+// Returns the points that the triangles hide. ownDistance: metres.
+uint64_t hiddenPoints(const LightFacet& facet, const OccludingMesh& mesh, const Receiver& receiver,
+                      double ownDistance = 0);
+
+// The results of the tests of boxes against the cone and against the points, of the box around the
+// triangles.
+struct BoxResult {
+    bool touched = false;
+    uint64_t points = 0;
+};
+BoxResult testBox(const LightFacet& facet, const OccludingMesh& mesh, const Receiver& receiver);
+
+// Returns the visible shares of the diffuse and of the specular response. `lit`: visible points.
+glm::dvec2 visibleShares(const LightFacet& facet, uint64_t lit, const Receiver& receiver);
+
+} // namespace candelabra::formula
