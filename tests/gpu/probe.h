@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <span>
 
 #include <glm/vec3.hpp>
 
@@ -32,11 +33,12 @@ protected:
         return {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine};
     }
 
-    // Returns one output per input. The probe binds PROBE_INPUT and PROBE_OUTPUT, and takes
+    // Returns one output per input. The probe binds PROBE_INPUT, PROBE_OUTPUT and `more`, and takes
     // ProbeParams.
     template <typename Output, typename Input>
     std::vector<Output> runProbe(const gpu::Spirv& probe, const std::vector<Input>& inputs,
-                                 std::initializer_list<gpu::SpecConstant> constants = {})
+                                 std::initializer_list<gpu::SpecConstant> constants = {},
+                                 std::span<const gpu::Binding> more = {})
     {
         const uint32_t count = uint32_t(inputs.size());
         const gpu::Buffer in = upload("probe inputs", inputs);
@@ -45,7 +47,7 @@ protected:
         const gpu::Bindings bindings = kernel.createBindings(1);
         const auto input = gpu::Binding::of(gpu::PROBE_INPUT, in);
         const auto output = gpu::Binding::of(gpu::PROBE_OUTPUT, out);
-        bindings.write(0, {input, output});
+        bindings.write(0, {input, output}, more);
         gpu::Timer timer(device(), "probe", 1, false);
         context().submitAndWait([&](VkCommandBuffer cmd) {
             timer.begin(cmd, 0);

@@ -73,14 +73,14 @@ bool keptLists(const CndLightingStats& stats)
     });
 }
 
-struct Case {
+struct ClassCase {
     const char* name;
     RunOptions options;
     CndLightType lights = CND_LIGHT_SPHERE;
     bool diffuseClass = true; // whether the layout can store it
 };
 
-const Case cases[] = {
+const ClassCase classCases[] = {
     {"CompactLayout", {.layout = CND_GBUFFER_COMPACT}, CND_LIGHT_SPHERE, false},
     {"HostLayout", {.layout = CND_GBUFFER_HOST, .gbuffer = floatChannels(CND_CHANNEL_SPECULAR_A)}},
     {"HostLayoutWithoutF90",
@@ -92,7 +92,7 @@ const Case cases[] = {
     {"Sampled", {.specular = CND_SPECULAR_SAMPLED, .sampleCount = 4}},
 };
 
-class MaterialClasses : public HostGBufferTest, public ::testing::WithParamInterface<Case>
+class MaterialClasses : public HostGBufferTest, public ::testing::WithParamInterface<ClassCase>
 {
 };
 
@@ -126,7 +126,7 @@ TEST_P(MaterialClasses, LookTheSame)
     EXPECT_EQ(apart.stats.tileCount, together.stats.tileCount);
 }
 
-INSTANTIATE_TEST_SUITE_P(In, MaterialClasses, ::testing::ValuesIn(cases),
+INSTANTIATE_TEST_SUITE_P(In, MaterialClasses, ::testing::ValuesIn(classCases),
                          [](const auto& test) { return test.param.name; });
 
 TEST_F(LightingTest, TilesWithoutASpecularLobeAreShadedWithoutIt)
