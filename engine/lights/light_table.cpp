@@ -123,7 +123,8 @@ void LightTable::update(std::span<const CndLightId> ids, std::span<const CndLigh
         for (size_t i = 0; i < count; ++i) {
             const auto [record, polygon] = edits[i];
             packLights(lights.subspan(first + i, 1), {&records_[record], 1});
-            identify(records_[record], lights[first + i], places_[record].slot, polygon);
+            identify(records_[record], lights[first + i], gpu::IdTable::slotOf(ids[first + i]),
+                     polygon);
         }
         for (size_t i = 0; i < count; ++i)
             stage(edits[i].record, staging);
