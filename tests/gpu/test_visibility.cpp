@@ -262,6 +262,7 @@ TEST_F(VisibilityMasks, EqualThoseInDouble)
         inputs.push_back(partialSheet(anyType()));
     const std::vector<Output> outputs = evaluate(inputs);
     uint64_t different = 0, tested = 0, partial = 0;
+    glm::dvec2 largest(0); // differences of the visible shares
     for (size_t i = 0; i < inputs.size(); ++i) {
         const Input& in = inputs[i];
         const Output& out = outputs[i];
@@ -275,9 +276,19 @@ TEST_F(VisibilityMasks, EqualThoseInDouble)
         partial += hidden != 0 && hidden != facet.members;
         for (const float share : {out.shares.x, out.shares.y})
             EXPECT_TRUE(share >= 0 && share <= 1) << share;
+        if (hidden == bitsOf(out.hidden) && facet.members == bitsOf(out.members)) {
+            const glm::dvec2 shares =
+                formula::visibleShares(facet, facet.members & ~hidden,
+                                       {.n = glm::dvec3(in.n),
+                                        .v = glm::dvec3(in.v),
+                                        .perceptualRoughness = std::sqrt(double(in.alpha))});
+            largest = glm::max(largest, glm::abs(shares - glm::dvec2(out.shares)));
+        }
     }
-    EXPECT_LE(double(different), 2e-4 * double(tested));
+    EXPECT_LE(double(different), 2e-5 * double(tested));
     EXPECT_GE(partial, inputs.size() / 4);
+    EXPECT_LT(largest.x, 1e-5);
+    EXPECT_LT(largest.y, 1e-5);
 }
 
 // No triangle that hides a point is in a box that the tests leave out.
