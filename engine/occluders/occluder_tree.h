@@ -9,7 +9,7 @@
 
 #include <glm/common.hpp>
 
-#include "shared/visibility.h"
+#include "shared/occluder_data.h"
 
 namespace candelabra::lighting
 {

@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/camera_relative.glsl"
-#include "shared/visibility.h"
+#include "shared/occluder_data.h"
 
 layout(local_size_x = PREPARE_OCCLUDERS_GROUP) in;
 layout(push_constant, scalar) uniform Push

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Facets: flat pieces that stand for light sources where shadows are found. A receiver tests whether
-// it sees certain points of the facet (points.glsl). Everything is relative to the receiver, in view
-// space.
+// it sees certain points of the facet (facet_points.glsl). Everything is relative to the receiver, in
+// view space.
 #ifndef CND_LIB_VISIBILITY_FACET
 #define CND_LIB_VISIBILITY_FACET
 
 #include "lib/math.glsl"
-#include "lib/visibility/points.glsl"
+#include "lib/visibility/facet_points.glsl"
 
 // The side of the emitter towards the receiver, which occluders must be in front of. On the way to the
 // point (u, v) of the facet it lies at the share 1 / (1 + kappa g) of the way, with
@@ -17,9 +17,9 @@ struct FrontSurface {
     float roundEnd;        // length of a tube's round end over half the length of the facet; spheres: 1
 };
 
-// The points of the facet are centre + u halfU + v halfV, with (u, v) from points.glsl. The vectors
-// are scaled so that none of their products overflows: in units of 1 / front.inverseDistance metres, or
-// in any unit if the facet is at infinity.
+// The points of the facet are centre + u halfU + v halfV, with (u, v) from facet_points.glsl. The
+// vectors are scaled so that none of their products overflows: in units of 1 / front.inverseDistance
+// metres, or in any unit if the facet is at infinity.
 struct Facet {
     vec3 centre;
     vec3 halfU;

@@ -113,7 +113,8 @@ uint hiddenInWord(TriangleConditions k, FrontSurface front, uint count, uint sha
     uint hidden = 0u;
     for (uint left = points; left != 0u; left &= left - 1u) {
         const uint i = uint(findLSB(left));
-        if (hidesPoint(k, front, facetPoint(count, shape, first + i)))
+        // A lane that is done may run this once more (shading/software_drivers.glsl).
+        if (left != 0u && hidesPoint(k, front, facetPoint(count, shape, first + i)))
             hidden |= 1u << i;
     }
     return hidden;

@@ -3,8 +3,8 @@
 // this file, the includer defines uvec2 pointTable(uint i), which returns entry i of the table for this
 // count (engine/tables/point_table.h). A buffer holds the table, because llvmpipe copies constant
 // arrays to the stack wherever they are read.
-#ifndef CND_LIB_VISIBILITY_POINTS
-#define CND_LIB_VISIBILITY_POINTS
+#ifndef CND_LIB_VISIBILITY_FACET_POINTS
+#define CND_LIB_VISIBILITY_FACET_POINTS
 
 #include "shared/visibility_points.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What casts shadows, as kernels see it: meshes of triangles with their trees, instances of them
 // with a tree over all, and the work of the kernels that find which parts of a light a pixel sees.
-#ifndef CND_SHARED_VISIBILITY_H
-#define CND_SHARED_VISIBILITY_H
+#ifndef CND_SHARED_OCCLUDER_DATA_H
+#define CND_SHARED_OCCLUDER_DATA_H
 
 #include "shared/prelude.h"
 
