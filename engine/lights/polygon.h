@@ -35,7 +35,7 @@ struct OutlinePolygon {
 OutlinePolygon outlinePolygon(const CndLight& light) noexcept;
 
 // The smallest rectangle that encloses a polygon, in metres. One of its sides lies on an edge of
-// the polygon. Shadows are found for points of this rectangle (shaders/lib/visibility).
+// the polygon. Shadows will be found for points of this rectangle (shaders/lib/visibility).
 struct EnclosingRectangle {
     glm::dvec2 centre, halfU, halfV; // in the coordinates of the corners
     uint64_t points64 = 0;           // which of the points of the square are in the polygon

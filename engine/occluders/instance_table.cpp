@@ -183,7 +183,7 @@ void InstanceTable::fitAncestors(uint32_t place) noexcept
         const Box before = boxOf(nodes_[node]);
         const Box box = fittedBox(nodes_, node, [&](uint32_t i) { return boxAt(i); });
         if (box == before)
-            return;
+            break;
         nodes_[node].low = box.low;
         nodes_[node].high = box.high;
         nodeBuffer_.markChanged(node * nodeBytes, nodeBytes);

@@ -18,7 +18,8 @@ using OccluderId = uint64_t;
 // A mesh that casts shadows, in the host's memory. It is copied before the call returns. Its
 // triangles are two-sided and need not be connected or closed. Triangles without an area are
 // allowed and cast no shadow. A mesh takes about 70 bytes of device memory per triangle, and
-// as much plus 12 bytes of host memory.
+// as much plus 12 bytes of host memory. What an upload reads, as large as what has changed, stays
+// until a later change.
 struct OccluderMesh {
     // The first of vertexCount positions, three floats each, in metres in the mesh's own space.
     // Each coordinate is within 1e15. All positions are checked, also those that no triangle uses.

@@ -18,7 +18,7 @@ struct EmitterPoint {
     glm::dvec3 direction{0}; // unit, from the receiver
     double distance = 0;     // infinite for distant lights
     // Points per solid angle, 1/sr, if the emitter has one point in all. 0: the receiver does not
-    // see this point, because the emitter itself hides it or is not seen from this side.
+    // see this point, because the emitter itself hides it.
     double density = 0;
 };
 

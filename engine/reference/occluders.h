@@ -113,7 +113,6 @@ private:
     // returns true. Returns the last result.
     template <class Enter, class Visit>
     bool walk(Enter&& enter, Visit&& visit) const;
-    bool objectsStop(const LightRay& ray) const;
 
     std::span<const Object> objects_;
     std::span<const Triangle> triangles_;

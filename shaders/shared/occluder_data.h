@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What casts shadows, as kernels see it: meshes of triangles with their trees, instances of them
-// with a tree over all, and the work of the kernels that find which parts of a light a pixel sees.
+// What casts shadows, as kernels see it: meshes of triangles with their trees, and instances of
+// them with a tree over all.
 #ifndef CND_SHARED_OCCLUDER_DATA_H
 #define CND_SHARED_OCCLUDER_DATA_H
 
@@ -59,23 +59,6 @@ struct OccluderInstance {
     float surfaceError;
 };
 GPU_SIZE(OccluderInstance, 112)
-
-// Where the walk of a pixel may begin: a subtree that touches the shaft from a cluster to a light.
-struct OccluderItem {
-    uint instance; // ITEM_OF_INSTANCES: `node` is one of the tree over instances
-    uint node;
-};
-GPU_SIZE(OccluderItem, 8)
-const uint ITEM_OF_INSTANCES = 0xFFFFFFFFu;
-
-// A light of a cluster that is neither surely lit nor surely dark.
-struct AskRecord {
-    uint entry; // index in the buffer of list entries
-    uint cluster;
-    uint light;
-    uint items; // first OccluderItem << 4, plus how many there are; 0: the walk begins at the root
-};
-GPU_SIZE(AskRecord, 16)
 
 // --- prepare_occluders: transforms instances to view space, one lane per instance
 const uint PREPARE_OCCLUDERS_GROUP = 64u;

@@ -12,6 +12,7 @@ import os
 import re
 import subprocess
 import sys
+import threading
 
 full = os.environ.get("CANDELABRA_FULL_TESTS") == "1"
 passed, skipped, failed = [], [], []
@@ -30,16 +31,23 @@ def run(executable, suites):
         failures_before = len(failed)
         for line in process.stdout:
             output.append(line)
+            if line.startswith("Note: Randomizing"):
+                print(line, end="", flush=True)
             if line.startswith("[ RUN      ] "):
                 running, output = line[13:].strip(), [line]
+                slow = threading.Timer(120, print, [f"{running} has run for two minutes"], {"flush": True})
+                slow.daemon = True
+                slow.start()
                 excluded.append(running)
             elif running and (end := re.match(r"\[ +(OK|FAILED|SKIPPED) +\] ", line)):
+                slow.cancel()
                 {"OK": passed, "FAILED": failed, "SKIPPED": skipped}[end[1]].append(running)
                 if end[1] != "OK":
                     print("".join(output), end="", flush=True)
                 running, output = None, []
         status = process.wait()
         if running:
+            slow.cancel()
             output.append(f"{running} ended the process with status {status}.\n")
             failed.append(f"{running} (crashed)")
         elif status != 0 and len(failed) == failures_before:

@@ -259,6 +259,40 @@ TEST_F(Occluders, InstancesThatMoveAreFound)
     EXPECT_TRUE(madeAnew);
 }
 
+// Instances that change places within the same outermost box.
+TEST_F(Occluders, ATreeWhoseBoxesHaveGrownInsideIsMadeAnew)
+{
+    OccluderHost host(device_);
+    OccluderRandom random(4);
+    const Positions positions = random.positions(10);
+    const OccluderMesh mesh = meshOf(positions);
+    OccluderMeshId meshId = 0;
+    host.set.addMeshes({&mesh, 1}, &meshId);
+    std::vector<OccluderInstance> instances;
+    for (int i = 0; i < 200; ++i) {
+        instances.push_back({.mesh = meshId, .surfaceError = float(i), .layers = 3});
+        for (int row = 0; row < 3; ++row)
+            instances.back().worldFromMesh[4 * row + row] = 1;
+        instances.back().worldFromMesh[3] = 100.0 * i;
+    }
+    std::vector<OccluderId> ids(instances.size());
+    host.set.add(instances, ids.data());
+    record(host);
+    const auto order = [&] {
+        std::vector<float> out;
+        for (const gpu::OccluderRecord& r : host.set.instances().records())
+            out.push_back(r.surfaceError);
+        return out;
+    };
+    const std::vector<float> first = order();
+    for (size_t i = 1; i < 100; ++i) // the first and the last stay where they are
+        std::swap(instances[i].worldFromMesh[3], instances[199 - i].worldFromMesh[3]);
+    for (size_t i = 1; i < 199; i += 2) // half of them move
+        host.set.update({&ids[i], 1}, {&instances[i], 1});
+    record(host);
+    EXPECT_NE(order(), first);
+}
+
 TEST_F(Occluders, OnlyWhatHasChangedIsUploaded)
 {
     OccluderHost host(device_);

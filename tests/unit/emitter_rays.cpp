@@ -21,7 +21,7 @@ std::array<glm::dvec3, 2> frameOf(const glm::dvec3& z)
 }
 
 // Adds a piece of a surface if its front faces the origin.
-void addPiece(std::vector<EmitterPoint>& out, const glm::dvec3& at, const glm::dvec3& normal,
+void addPiece(std::vector<EmitterRay>& out, const glm::dvec3& at, const glm::dvec3& normal,
               double area, bool twoSided)
 {
     const double distance = glm::length(at);
@@ -31,12 +31,12 @@ void addPiece(std::vector<EmitterPoint>& out, const glm::dvec3& at, const glm::d
 }
 
 // Adds the directions of a cap around the z axis of equal solid angles.
-std::vector<EmitterPoint> capPoints(const glm::dvec3& direction, double sine, uint32_t side)
+std::vector<EmitterRay> capPoints(const glm::dvec3& direction, double sine, uint32_t side)
 {
     const auto [x, y] = frameOf(direction);
     // 1 - cosine, without cancellation.
     const double height = sine * sine / (1 + std::sqrt(std::max(0.0, 1 - sine * sine)));
-    std::vector<EmitterPoint> out;
+    std::vector<EmitterRay> out;
     for (uint32_t i = 0; i < side; ++i)
         for (uint32_t j = 0; j < side; ++j) {
             const double h = height * (i + 0.5) / side, azimuth = 2 * pi * (j + 0.5) / side;
@@ -63,7 +63,7 @@ bool crosses(const glm::dvec3& direction, double distance, const OccluderTriangl
     return v >= 0 && u + v <= 1 && along > 0 && along < distance;
 }
 
-bool missesBall(const EmitterPoint& point, const glm::dvec3& centre, double radius)
+bool missesBall(const EmitterRay& point, const glm::dvec3& centre, double radius)
 {
     const double along = glm::dot(point.direction, centre);
     return along < -radius || along > point.distance + radius ||
@@ -102,11 +102,11 @@ Occluder makeBox(const glm::dvec3& centre, const glm::dmat3& halfAxes)
     return out;
 }
 
-std::vector<EmitterPoint> spherePoints(const glm::dvec3& centre, double radius, uint32_t side)
+std::vector<EmitterRay> spherePoints(const glm::dvec3& centre, double radius, uint32_t side)
 {
     const double distance = glm::length(centre);
-    std::vector<EmitterPoint> out = capPoints(centre / distance, radius / distance, side);
-    for (EmitterPoint& p : out) {
+    std::vector<EmitterRay> out = capPoints(centre / distance, radius / distance, side);
+    for (EmitterRay& p : out) {
         const double along = glm::dot(p.direction, centre);
         const double aside2 = std::max(0.0, distance * distance - along * along);
         p.distance = along - std::sqrt(std::max(0.0, radius * radius - aside2));
@@ -114,17 +114,16 @@ std::vector<EmitterPoint> spherePoints(const glm::dvec3& centre, double radius, 
     return out;
 }
 
-std::vector<EmitterPoint> distantSpherePoints(const glm::dvec3& direction, double sine,
-                                              uint32_t side)
+std::vector<EmitterRay> distantSpherePoints(const glm::dvec3& direction, double sine, uint32_t side)
 {
     return capPoints(direction, sine, side);
 }
 
-std::vector<EmitterPoint> discPoints(const glm::dvec3& centre, const glm::dvec3& normal,
-                                     double radius, uint32_t side)
+std::vector<EmitterRay> discPoints(const glm::dvec3& centre, const glm::dvec3& normal,
+                                   double radius, uint32_t side)
 {
     const auto [x, y] = frameOf(normal);
-    std::vector<EmitterPoint> out;
+    std::vector<EmitterRay> out;
     for (uint32_t i = 0; i < side; ++i)
         for (uint32_t j = 0; j < side; ++j) {
             const double r = radius * std::sqrt((i + 0.5) / side);
@@ -135,12 +134,12 @@ std::vector<EmitterPoint> discPoints(const glm::dvec3& centre, const glm::dvec3&
     return out;
 }
 
-std::vector<EmitterPoint> polygonPoints(const glm::dvec3& centre, const glm::dvec3& axisU,
-                                        const glm::dvec3& axisV,
-                                        const std::vector<glm::dvec2>& corners, uint32_t side)
+std::vector<EmitterRay> polygonPoints(const glm::dvec3& centre, const glm::dvec3& axisU,
+                                      const glm::dvec3& axisV,
+                                      const std::vector<glm::dvec2>& corners, uint32_t side)
 {
     const glm::dvec3 normal = glm::normalize(glm::cross(axisU, axisV));
-    std::vector<EmitterPoint> out;
+    std::vector<EmitterRay> out;
     for (uint32_t i = 0; i < side; ++i)
         for (uint32_t j = 0; j < side; ++j) {
             const glm::dvec2 at(2 * (i + 0.5) / side - 1, 2 * (j + 0.5) / side - 1);
@@ -151,8 +150,8 @@ std::vector<EmitterPoint> polygonPoints(const glm::dvec3& centre, const glm::dve
     return out;
 }
 
-std::vector<EmitterPoint> tubePoints(const glm::dvec3& centre, const glm::dvec3& halfAxis,
-                                     double radius, uint32_t side)
+std::vector<EmitterRay> tubePoints(const glm::dvec3& centre, const glm::dvec3& halfAxis,
+                                   double radius, uint32_t side)
 {
     const double size = glm::length(halfAxis);
     const glm::dvec3 along = halfAxis / size;
@@ -161,7 +160,7 @@ std::vector<EmitterPoint> tubePoints(const glm::dvec3& centre, const glm::dvec3&
     // and of the ends have similar areas: the surface of a ball has the area of a cylinder around
     // it (Archimedes), so equal lengths along the axis have equal areas.
     const uint32_t rows = 2 * side;
-    std::vector<EmitterPoint> out;
+    std::vector<EmitterRay> out;
     for (uint32_t i = 0; i < rows; ++i)
         for (uint32_t j = 0; j < side; ++j) {
             const double azimuth = 2 * pi * (j + 0.5) / side;
@@ -176,7 +175,7 @@ std::vector<EmitterPoint> tubePoints(const glm::dvec3& centre, const glm::dvec3&
     return out;
 }
 
-bool isHidden(const EmitterPoint& point, const std::vector<Occluder>& occluders)
+bool isHidden(const EmitterRay& point, const std::vector<Occluder>& occluders)
 {
     return std::any_of(occluders.begin(), occluders.end(), [&](const Occluder& o) {
         return !missesBall(point, o.centre, o.radius) &&

@@ -22,25 +22,25 @@ struct Occluder {
 Occluder makeBox(const glm::dvec3& centre, const glm::dmat3& halfAxes);
 
 // A point of an emitter as the origin sees it.
-struct EmitterPoint {
+struct EmitterRay {
     glm::dvec3 direction;  // unit
     double distance = 0;   // INFINITY: a distant light
     double solidAngle = 0; // that it stands for
 };
 // The points of an emitter that face the origin, about `side` * `side` of them, on a regular grid.
-std::vector<EmitterPoint> spherePoints(const glm::dvec3& centre, double radius, uint32_t side);
-std::vector<EmitterPoint> distantSpherePoints(const glm::dvec3& direction, double sine,
-                                              uint32_t side);
-std::vector<EmitterPoint> discPoints(const glm::dvec3& centre, const glm::dvec3& normal,
-                                     double radius, uint32_t side);
+std::vector<EmitterRay> spherePoints(const glm::dvec3& centre, double radius, uint32_t side);
+std::vector<EmitterRay> distantSpherePoints(const glm::dvec3& direction, double sine,
+                                            uint32_t side);
+std::vector<EmitterRay> discPoints(const glm::dvec3& centre, const glm::dvec3& normal,
+                                   double radius, uint32_t side);
 // `corners`: of a convex polygon, in the coordinates of the half axes.
-std::vector<EmitterPoint> polygonPoints(const glm::dvec3& centre, const glm::dvec3& axisU,
-                                        const glm::dvec3& axisV,
-                                        const std::vector<glm::dvec2>& corners, uint32_t side);
-std::vector<EmitterPoint> tubePoints(const glm::dvec3& centre, const glm::dvec3& halfAxis,
-                                     double radius, uint32_t side);
+std::vector<EmitterRay> polygonPoints(const glm::dvec3& centre, const glm::dvec3& axisU,
+                                      const glm::dvec3& axisV,
+                                      const std::vector<glm::dvec2>& corners, uint32_t side);
+std::vector<EmitterRay> tubePoints(const glm::dvec3& centre, const glm::dvec3& halfAxis,
+                                   double radius, uint32_t side);
 
 // Returns whether a triangle is on the way from the origin to the point.
-bool isHidden(const EmitterPoint& point, const std::vector<Occluder>& occluders);
+bool isHidden(const EmitterRay& point, const std::vector<Occluder>& occluders);
 
 } // namespace candelabra::test

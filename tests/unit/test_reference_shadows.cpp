@@ -87,7 +87,8 @@ double difference(const glm::dvec3& a, const glm::dvec3& b)
     return glm::length(a - b) / glm::length(b);
 }
 
-// Lights of every type around `center`, as large as half their distance.
+// Lights of every area type around `center`. Their radii or half sides are at most 0.35 of their
+// distance.
 std::vector<CndLight> lightsAround(const glm::dvec3& center)
 {
     const double reach = 0.35 * glm::length(center);

@@ -48,7 +48,7 @@ struct Bounds {
 // The receiver is the origin.
 struct Case {
     formula::LightFacet facet;
-    std::vector<EmitterPoint> emitter;
+    std::vector<EmitterRay> emitter;
     glm::dvec3 normal, toEye;
     std::vector<Occluder> occluders;
 };
@@ -149,7 +149,7 @@ void addOccluders(Case& c, double distance, Draw& draw)
 {
     const uint32_t count = 1 + draw.below(3);
     for (uint32_t i = 0; i < count; ++i) {
-        const EmitterPoint& to = c.emitter[draw.below(uint32_t(c.emitter.size()))];
+        const EmitterRay& to = c.emitter[draw.below(uint32_t(c.emitter.size()))];
         const double size = distance * draw.uniform(0.03, 0.5);
         const glm::dvec3 x = draw.direction(), y = draw.across(x), z = glm::cross(x, y);
         const double length = std::min(to.distance, distance);
@@ -175,7 +175,7 @@ bool placeReceiver(Case& c, const Lamp& lamp, Draw& draw)
     c.normal = draw.around(reflected, across    ? draw.uniform(0, 0.1)
                                       : grazing ? draw.uniform(0.05, 0.3)
                                                 : draw.uniform(0.3, 1));
-    const auto isUp = [&](const EmitterPoint& p) { return glm::dot(p.direction, c.normal) > 0; };
+    const auto isUp = [&](const EmitterRay& p) { return glm::dot(p.direction, c.normal) > 0; };
     const double up =
         double(std::count_if(c.emitter.begin(), c.emitter.end(), isUp)) / double(c.emitter.size());
     if (across ? up < 0.1 || up == 1 : up < 1)
@@ -196,7 +196,7 @@ Shares trueShares(const Case& c)
     Shares lit, sum;
     const auto cosine = [&](const glm::dvec3& l) { return std::min(glm::dot(c.normal, l), 1.0); };
     const double NoV = std::max(cosine(c.toEye), reference::minNoV);
-    for (const EmitterPoint& p : c.emitter) {
+    for (const EmitterRay& p : c.emitter) {
         const double NoL = cosine(p.direction);
         if (NoL <= 0)
             continue;

@@ -15,8 +15,8 @@ const float EDGE_SLACK = 2.384185791015625e-7; // 2^-22
 // Bound of the rounding of light coordinates and of instances' transforms in float32.
 const float PLANE_SLACK = 4.76837158203125e-7; // 2^-21
 
-// Returns how near a triangle's plane may be to the receiver, in metres, that is not shadowed by the
-// triangle, because it may lie on it.
+// Returns the distance in metres up to which a triangle's plane counts as the receiver's own surface.
+// Such a triangle does not shadow the receiver.
 // depthError: half a step of the depth format, as a distance along the view ray.
 // position: of the receiver in view space; localPosition: in the space of the instance.
 // surfaceError: of the instance. viewFromLocal: linear part of its transform.

@@ -278,9 +278,9 @@ void FrameArguments::addViewTo(CLI::App& command)
     addOption(command, "--camera", camera, "NAME|INDEX|px,py,pz,tx,ty,tz[,fov]",
               "camera of the scene by name (hall: nave, gallery; field: terrace, overview; fence: "
               "path, above; rooms: salon, enfilade; showcase: front, above; glTF files: their own, "
-              "then three-quarter, "
-              "front, right, back, left and above, and in rooms inside and inside-2) or by index, "
-              "or a new camera: position and target in metres, and vertical field of view in "
+              "then three-quarter, front, right, back, left and above, and inside and inside-2 for "
+              "the inside of a building) or by index, or a new camera: position and target in "
+              "metres, and vertical field of view in "
               "degrees; default: the scene's first, or the first automatic one if the file's own "
               "cameras show the scene less than half as wide and as high as the picture");
     addChoice(command, "--lights-visible", lightsVisible, onOffChoices,

@@ -44,8 +44,7 @@ struct LobeArguments {
     void applyTo(SceneOptions& options) const; // throws UsageError
 };
 
-// The values of --shadows: points of each light that decide how much of it is visible; 0: all of
-// it.
+// The values of --shadows. `truth`, which alone has the option so far, knows only off and on.
 inline constexpr Choice<uint32_t> shadowChoices[] = {{"off", 0}, {"32", 32}, {"64", 64}};
 
 // SCENE and the options that shape it. The number of lights is not among them, because `render`

@@ -235,8 +235,8 @@ void addTruthCommand(CLI::App& app, Run& run)
     addOption(*command, "--tolerance", a->tolerance, "T",
               "relative tolerance of every light's contribution, 1e-9 to 1e-2");
     addChoice(*command, "--shadows", a->shadows, shadowChoices,
-              "whether surfaces stop light; 32 and 64 mean the same here, the true visibility, "
-              "within 0.1% of a pixel");
+              "whether surfaces stop light; 32 and 64 mean the same here: points are added until a "
+              "pixel changes by less than 0.1%");
     addOption(*command, "--shadow-seed", a->shadowSeed, "S",
               "another set of the points of lights that shadows are integrated with");
     addOption(*command, "--pixels", a->pixels, "N",
@@ -252,10 +252,11 @@ void addTruthCommand(CLI::App& app, Run& run)
                      "merge the files of all shards, given in any order, into one image")
         ->type_name("FILE...");
     command->footer(
-        "Every pixel is evaluated at its centre, as in `candelabra render`. Differences\n"
-        "between the two images are errors of the specular method. With conic they are\n"
-        "largest where a light crosses the horizon of a surface that is seen at a grazing\n"
-        "angle. Materials have no textures here, and environments add no light.\n\n"
+        "Every pixel is evaluated at its centre, as in `candelabra render`. Materials have\n"
+        "no textures here, environments add no light, and `render` draws no shadows yet.\n"
+        "Apart from that, differences between the two images are errors of the specular\n"
+        "method and, at meshes, of levels of detail. With conic they are largest where a\n"
+        "light crosses the horizon of a surface that is seen at a grazing angle.\n\n"
         "Shadows are those of opaque meshes, planes and balls, cast from both of their sides;\n"
         "lights cast none. Where a light is hidden in part, 4,096 stratified points of its\n"
         "emitter decide, doubled until the pixel changes by less than 0.1%, up to 65,536.\n\n"

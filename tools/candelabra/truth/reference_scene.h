@@ -15,8 +15,9 @@ namespace candelabra::app
 // Converts surfaces, lights and background of `scene`, seen from `camera`. Lights that share no
 // layer with the camera are left out. `imageAspect` is the image's width / height, as for
 // makeCamera. With `lightsVisible` the emitters of area lights are seen. Materials are those
-// without their textures and vertex colours. Surfaces that are not opaque stop no light, and are
-// seen as if opaque unless less than a half, or than their cutoff, of them is covered.
+// without their textures and vertex colours. Surfaces that are not opaque stop no light. They are
+// seen as if opaque if their alpha reaches the cutoff (masked) or one half (others), else not at
+// all.
 reference::Scene toReference(const Scene& scene, const Camera& camera, double imageAspect,
                              bool lightsVisible);
 
