@@ -78,8 +78,8 @@ vec3 schlick(ShadingPoint p, vec2 response)
 
 // The responses of a surface's lobes to a light.
 struct LightResponse {
-    // Of the diffuse lobe with albedo 1: the form factor E / (pi L), 0..1; for punctual lights E / pi
-    // per unit of intensity or illuminance.
+    // The response of the diffuse lobe with albedo 1. This is the form factor E / (pi L), 0..1, or for
+    // punctual lights E / pi per unit of intensity or illuminance.
     float formFactor;
     vec2 specular;    // with F = 1 and with F = (1 - VoH)^5; 0 without a lobe
 };

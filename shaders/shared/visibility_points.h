@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The points of a light source for which shadows are found (lib/visibility), and sets of them as
-// bit masks. Written by `candelabra_fit points`, which places the points so that an edge of a
-// shadow across a light counts the right share of them. The root mean square of share of points
-// minus share of area, over half-planes, is 0.0104 (64 in the disc), 0.0182 (32), 0.0097 (64 in the
-// square) and 0.0171 (32). A unit test (PointSets) computes it and the sets again.
+// The points of a light source for which shadows are found (lib/visibility). Written by
+// `candelabra_fit points`, which places the points so that an edge of a shadow across a light
+// counts the right share of them. The root mean square of share of points minus share of area, over
+// half-planes, is 0.0104 (64 in the disc), 0.0182 (32), 0.0097 (64 in the square) and 0.0171 (32).
+// A unit test (PointSets) computes it again. engine/tables/point_table.h derives sets of points
+// from them.
 //
-// Bit i of a mask belongs to point i: bits 0..31 are in x, bits 32..63 in y. Masks of 32 points are
-// one word. All coordinates lie inside (-1, 1), in units of the half axes of the facet.
+// Bit i of a mask belongs to point i: bits 0..31 are in x, bits 32..63 in y. All coordinates lie
+// inside (-1, 1), in units of the half axes of the facet.
 #ifndef CND_SHARED_VISIBILITY_POINTS_H
 #define CND_SHARED_VISIBILITY_POINTS_H
 
@@ -19,6 +20,7 @@ const uint FACET_DISC = 0u;
 const uint FACET_SQUARE = 1u;
 const uint FACET_POINT = 2u;
 
+// How many sets there are of points below a coordinate, and of points in a stadium.
 const uint POINT_PREFIXES = 33u;
 const uint STADIUM_RATIOS = 16u;
 
@@ -91,91 +93,6 @@ const vec2 POINTS_32[64] = {
     vec2(0.60152f, 0.32687f), vec2(0.60389f, -0.57713f), vec2(0.76865f, 0.89368f),
     vec2(0.81819f, -0.85032f), vec2(0.85964f, 0.07634f), vec2(0.86545f, 0.54534f),
     vec2(0.90666f, -0.38022f)};
-
-// Element (shape * 2 + axis) * POINT_PREFIXES + k: the points whose coordinate on the axis is below
-// -1 + k / 16. `shape` is FACET_DISC or FACET_SQUARE, axis 0 is u, 1 is v.
-const uvec2 POINTS_BELOW_64[132] = {
-    uvec2(0x00000000u, 0x00000000u), uvec2(0x00000000u, 0x00000000u), uvec2(0x00000003u, 0x00000000u),
-    uvec2(0x00000007u, 0x00000000u), uvec2(0x0000001Fu, 0x00000000u), uvec2(0x0000003Fu, 0x00000000u),
-    uvec2(0x000001FFu, 0x00000000u), uvec2(0x000007FFu, 0x00000000u), uvec2(0x00000FFFu, 0x00000000u),
-    uvec2(0x0000FFFFu, 0x00000000u), uvec2(0x0001FFFFu, 0x00000000u), uvec2(0x0003FFFFu, 0x00000000u),
-    uvec2(0x003FFFFFu, 0x00000000u), uvec2(0x01FFFFFFu, 0x00000000u), uvec2(0x07FFFFFFu, 0x00000000u),
-    uvec2(0x0FFFFFFFu, 0x00000000u), uvec2(0xFFFFFFFFu, 0x00000001u), uvec2(0xFFFFFFFFu, 0x00000003u),
-    uvec2(0xFFFFFFFFu, 0x0000001Fu), uvec2(0xFFFFFFFFu, 0x000000FFu), uvec2(0xFFFFFFFFu, 0x000007FFu),
-    uvec2(0xFFFFFFFFu, 0x000007FFu), uvec2(0xFFFFFFFFu, 0x00003FFFu), uvec2(0xFFFFFFFFu, 0x0003FFFFu),
-    uvec2(0xFFFFFFFFu, 0x000FFFFFu), uvec2(0xFFFFFFFFu, 0x001FFFFFu), uvec2(0xFFFFFFFFu, 0x00FFFFFFu),
-    uvec2(0xFFFFFFFFu, 0x07FFFFFFu), uvec2(0xFFFFFFFFu, 0x07FFFFFFu), uvec2(0xFFFFFFFFu, 0x0FFFFFFFu),
-    uvec2(0xFFFFFFFFu, 0x7FFFFFFFu), uvec2(0xFFFFFFFFu, 0xFFFFFFFFu), uvec2(0xFFFFFFFFu, 0xFFFFFFFFu),
-    uvec2(0x00000000u, 0x00000000u), uvec2(0x00000000u, 0x00000000u), uvec2(0x04000000u, 0x00000100u),
-    uvec2(0x04020000u, 0x00000100u), uvec2(0x04020000u, 0x00040102u), uvec2(0x04020400u, 0x00040102u),
-    uvec2(0x04820400u, 0x00840502u), uvec2(0x44820400u, 0x00840502u), uvec2(0x44820C10u, 0x00850502u),
-    uvec2(0x44860C10u, 0x08850542u), uvec2(0x44860C10u, 0x08850542u), uvec2(0x64860C10u, 0x08C50542u),
-    uvec2(0x648E0D12u, 0x18C54542u), uvec2(0x648E4D12u, 0x18C54562u), uvec2(0x6C8E4D12u, 0x18D54562u),
-    uvec2(0x6C8E4D12u, 0x18D56562u), uvec2(0x6C8E5D32u, 0x9CD56562u), uvec2(0x6C9E5D33u, 0x9CD56572u),
-    uvec2(0x6C9E5D33u, 0x9CDD6572u), uvec2(0x7C9E5D73u, 0xDCDD6D72u), uvec2(0x7CBEDD77u, 0xDCDD6D72u),
-    uvec2(0x7CBEDD77u, 0xDEDD6D7Au), uvec2(0x7CBEDD77u, 0xDEDD6D7Au), uvec2(0x7CBEDF7Fu, 0xFEDF6F7Au),
-    uvec2(0x7CFEDF7Fu, 0xFEDF6F7Bu), uvec2(0x7CFEFF7Fu, 0xFFDF6F7Bu), uvec2(0x7CFEFF7Fu, 0xFFDF6F7Bu),
-    uvec2(0xFCFEFFFFu, 0xFFDFEFFBu), uvec2(0xFDFEFFFFu, 0xFFFFEFFBu), uvec2(0xFDFFFFFFu, 0xFFFFEFFBu),
-    uvec2(0xFDFFFFFFu, 0xFFFFFFFBu), uvec2(0xFFFFFFFFu, 0xFFFFFFFFu), uvec2(0xFFFFFFFFu, 0xFFFFFFFFu),
-    uvec2(0x00000000u, 0x00000000u), uvec2(0x00000000u, 0x00000000u), uvec2(0x0000003Fu, 0x00000000u),
-    uvec2(0x0000003Fu, 0x00000000u), uvec2(0x000000FFu, 0x00000000u), uvec2(0x000001FFu, 0x00000000u),
-    uvec2(0x00001FFFu, 0x00000000u), uvec2(0x00003FFFu, 0x00000000u), uvec2(0x0000FFFFu, 0x00000000u),
-    uvec2(0x0003FFFFu, 0x00000000u), uvec2(0x0007FFFFu, 0x00000000u), uvec2(0x007FFFFFu, 0x00000000u),
-    uvec2(0x01FFFFFFu, 0x00000000u), uvec2(0x01FFFFFFu, 0x00000000u), uvec2(0x0FFFFFFFu, 0x00000000u),
-    uvec2(0x7FFFFFFFu, 0x00000000u), uvec2(0xFFFFFFFFu, 0x00000000u), uvec2(0xFFFFFFFFu, 0x00000007u),
-    uvec2(0xFFFFFFFFu, 0x00000007u), uvec2(0xFFFFFFFFu, 0x0000001Fu), uvec2(0xFFFFFFFFu, 0x000001FFu),
-    uvec2(0xFFFFFFFFu, 0x000003FFu), uvec2(0xFFFFFFFFu, 0x000007FFu), uvec2(0xFFFFFFFFu, 0x00007FFFu),
-    uvec2(0xFFFFFFFFu, 0x0000FFFFu), uvec2(0xFFFFFFFFu, 0x0003FFFFu), uvec2(0xFFFFFFFFu, 0x0007FFFFu),
-    uvec2(0xFFFFFFFFu, 0x003FFFFFu), uvec2(0xFFFFFFFFu, 0x01FFFFFFu), uvec2(0xFFFFFFFFu, 0x03FFFFFFu),
-    uvec2(0xFFFFFFFFu, 0x03FFFFFFu), uvec2(0xFFFFFFFFu, 0xFFFFFFFFu), uvec2(0xFFFFFFFFu, 0xFFFFFFFFu),
-    uvec2(0x00000000u, 0x00000000u), uvec2(0x00000000u, 0x00000000u), uvec2(0x08000800u, 0x00200080u),
-    uvec2(0x08040802u, 0x04200080u), uvec2(0x08040802u, 0x04208080u), uvec2(0x08040802u, 0x04208081u),
-    uvec2(0x09040902u, 0x04208081u), uvec2(0x09050902u, 0x14308481u), uvec2(0x09050922u, 0x14308481u),
-    uvec2(0x19050922u, 0x14308491u), uvec2(0x19050D22u, 0x14708491u), uvec2(0x19250D22u, 0x14708C91u),
-    uvec2(0x19250D22u, 0x34708C93u), uvec2(0x19254D23u, 0x34718C93u), uvec2(0x1D254D23u, 0x34718D93u),
-    uvec2(0x1D254D23u, 0x34718D93u), uvec2(0x1D354DA3u, 0x35718D93u), uvec2(0x9D354DA3u, 0x3571CD93u),
-    uvec2(0x9D356DA3u, 0x7571CD93u), uvec2(0x9D356DB3u, 0x7579CDD3u), uvec2(0x9F356DB3u, 0x7579CDD3u),
-    uvec2(0x9F376DB3u, 0x7579EDD3u), uvec2(0x9F376DB3u, 0x7579EDD7u), uvec2(0x9F776FBBu, 0x7779EDD7u),
-    uvec2(0x9F776FBBu, 0xF779EFD7u), uvec2(0xBF776FBBu, 0xF77BEFD7u), uvec2(0xBF776FBBu, 0xF77BEFD7u),
-    uvec2(0xBFF7EFFBu, 0xF77BEFDFu), uvec2(0xBFF7EFFBu, 0xF7FBEFDFu), uvec2(0xBFF7EFFBu, 0xF7FBFFDFu),
-    uvec2(0xFFF7FFFBu, 0xFFFBFFDFu), uvec2(0xFFFFFFFFu, 0xFFFFFFFFu), uvec2(0xFFFFFFFFu, 0xFFFFFFFFu)};
-const uint POINTS_BELOW_32[132] = {
-    0x00000000u, 0x00000000u, 0x00000000u, 0x00000003u, 0x00000003u, 0x0000000Fu,
-    0x0000000Fu, 0x0000001Fu, 0x0000001Fu, 0x000000FFu, 0x000001FFu, 0x000001FFu,
-    0x000007FFu, 0x00000FFFu, 0x00003FFFu, 0x00007FFFu, 0x0000FFFFu, 0x0001FFFFu,
-    0x0003FFFFu, 0x000FFFFFu, 0x001FFFFFu, 0x007FFFFFu, 0x00FFFFFFu, 0x00FFFFFFu,
-    0x03FFFFFFu, 0x0FFFFFFFu, 0x0FFFFFFFu, 0x0FFFFFFFu, 0x3FFFFFFFu, 0x3FFFFFFFu,
-    0xFFFFFFFFu, 0xFFFFFFFFu, 0xFFFFFFFFu, 0x00000000u, 0x00000000u, 0x00000000u,
-    0x00082000u, 0x00082000u, 0x02082080u, 0x02082080u, 0x02082080u, 0x020A2880u,
-    0x220A2888u, 0x228A2888u, 0x228A2988u, 0x228A2988u, 0x228A2988u, 0x62AAA98Au,
-    0x6AAAA98Au, 0x6AAAAB9Au, 0x6AAAAB9Au, 0x6AAAAB9Au, 0x6ABAAB9Bu, 0xEEBAEBDBu,
-    0xEEBAEBDBu, 0xEEBAEBDBu, 0xEEBAEBDBu, 0xFEFAEFDFu, 0xFEFBEFDFu, 0xFEFBEFDFu,
-    0xFEFBEFDFu, 0xFFFBEFFFu, 0xFFFBEFFFu, 0xFFFFFFFFu, 0xFFFFFFFFu, 0xFFFFFFFFu,
-    0x00000000u, 0x00000000u, 0x00000001u, 0x0000000Fu, 0x0000001Fu, 0x0000001Fu,
-    0x0000001Fu, 0x0000007Fu, 0x000000FFu, 0x000001FFu, 0x000001FFu, 0x000003FFu,
-    0x00000FFFu, 0x00001FFFu, 0x00007FFFu, 0x00007FFFu, 0x0000FFFFu, 0x0001FFFFu,
-    0x0003FFFFu, 0x0007FFFFu, 0x000FFFFFu, 0x001FFFFFu, 0x003FFFFFu, 0x007FFFFFu,
-    0x00FFFFFFu, 0x00FFFFFFu, 0x07FFFFFFu, 0x07FFFFFFu, 0x07FFFFFFu, 0x0FFFFFFFu,
-    0x7FFFFFFFu, 0xFFFFFFFFu, 0xFFFFFFFFu, 0x00000000u, 0x00000000u, 0x00002000u,
-    0x10402010u, 0x10402010u, 0x10402110u, 0x10422110u, 0x14422110u, 0x14422110u,
-    0x14423112u, 0x94523112u, 0x94523112u, 0x94523152u, 0x9452B152u, 0x9552B152u,
-    0x9552B156u, 0x9552B956u, 0x9572B956u, 0xB572B956u, 0xB573B976u, 0xB573B976u,
-    0xB573B976u, 0xB773BD76u, 0xB773BD77u, 0xB77BBD77u, 0xF77BBD77u, 0xF77BBDF7u,
-    0xF77BFDF7u, 0xF7FBFDF7u, 0xF7FBFDF7u, 0xF7FBFDFFu, 0xFFFFFFFFu, 0xFFFFFFFFu};
-
-// Element i: the points of the square in a stadium along u that fills it. Its ends are as long as
-// (i + 1) / STADIUM_RATIOS of its half length.
-const uvec2 STADIUM_64[16] = {
-    uvec2(0xFFFFFFFFu, 0xFFFFFFFFu), uvec2(0xFFFFFFFFu, 0xFFFFFFFFu), uvec2(0xFFFFFFF9u, 0xFFFFFFFFu),
-    uvec2(0xFFFFFFF9u, 0xF3FFFFFFu), uvec2(0xFFFFFFF9u, 0xF3FFFFFFu), uvec2(0xFFFFFFF9u, 0xF3FFFFFFu),
-    uvec2(0xFFFFFFF9u, 0xF3FFFFFFu), uvec2(0xFFFFFFF9u, 0xF3FFFFFFu), uvec2(0xFFFFFFF9u, 0x63FFFFFFu),
-    uvec2(0xFFFFFFF9u, 0x63DFFFFFu), uvec2(0xFFFFF7F9u, 0x63DBFFFFu), uvec2(0xFFFFF7F9u, 0x63DBFFFFu),
-    uvec2(0xFFFFE7B9u, 0x63DBFFFFu), uvec2(0xFFFFE799u, 0x63DBFFFFu), uvec2(0xFFFFE799u, 0x63DBFFFFu),
-    uvec2(0xFFFFE791u, 0x635BFFFFu)};
-const uint STADIUM_32[16] = {
-    0xFFFFFFFFu, 0xFFFFFFFFu, 0xFFFFFFFFu, 0xFFFFFFFFu, 0xFFFFFFFFu, 0xFFFFFFF7u,
-    0xE7FFFFE7u, 0xE7FFFFE7u, 0xE7FFFFE7u, 0xE7FFFFE7u, 0xE7FFFFE7u, 0xE7FFFFE7u,
-    0xE7FFFFE7u, 0xA7FFFFE7u, 0xA7FFFFE7u, 0xA7FFFFE5u};
 // clang-format on
 
 GPU_END

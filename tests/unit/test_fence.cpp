@@ -1,51 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the generated scene of depth discontinuities.
-#include <cstring>
-
 #include <gtest/gtest.h>
 
 #include "generate/generators.h"
 #include "generate/ray_caster.h"
 #include "scene/scene_options.h"
-#include "unit/scene_invariants.h"
 
 namespace candelabra::app
 {
-
-TEST(Fence, HoldsWhatTheLoadersPromise)
-{
-    SceneOptions options{.lights = 500};
-    const Scene scene = generateFence(options);
-    EXPECT_EQ(test::brokenInvariant(scene), "");
-    EXPECT_EQ(scene.lights.size(), 500u);
-    EXPECT_GE(scene.instances.size(), 3000u);
-    EXPECT_LE(scene.instances.size(), 40000u);
-    for (const Instance& instance : scene.instances)
-        ASSERT_GT(glm::determinant(glm::dmat3(instance.worldFromObject)), 0);
-}
-
-TEST(Fence, DependsOnTheSeedAlone)
-{
-    SceneOptions options{.lights = 100, .moving = true};
-    const Scene a = generateFence(options), b = generateFence(options);
-    options.seed = 2;
-    const Scene c = generateFence(options);
-    const auto same = [](const Scene& x, const Scene& y) {
-        return std::memcmp(x.lights.data(), y.lights.data(), 100 * sizeof(CndLight)) == 0 &&
-               x.instances.back().worldFromObject == y.instances.back().worldFromObject;
-    };
-    EXPECT_EQ(a.lightMotions.size(), 100u);
-    EXPECT_TRUE(same(a, b));
-    EXPECT_FALSE(same(a, c));
-}
-
-TEST(Fence, IsTheSamePlaceForAnyNumberOfLights)
-{
-    const Scene none = generateFence({.lights = 0}), some = generateFence({.lights = 50});
-    ASSERT_EQ(none.instances.size(), some.instances.size());
-    for (size_t i = 0; i < none.instances.size(); ++i)
-        ASSERT_EQ(none.instances[i].worldFromObject, some.instances[i].worldFromObject);
-}
 
 // The purpose of the scene: most tiles of 16x16 pixels see objects that are metres apart.
 TEST(Fence, TilesHoldSeveralDepths)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests that the points of lights (shaders/shared/visibility_points.h) are as good as their header
-// says, and that the sets of points follow from them.
+// says, and that the table of sets of points (engine/tables/point_table.h) follows from them.
 #include <bit>
 #include <cmath>
 #include <vector>
@@ -9,6 +9,7 @@
 
 #include "fit/point_sets.h"
 #include "shared/visibility_points.h"
+#include "tables/point_table.h"
 
 namespace candelabra::test
 {
@@ -76,8 +77,7 @@ TEST(PointSets, PrefixesHoldThePointsBelow)
                     for (uint32_t i = 0; i < count; ++i)
                         below |= uint64_t(points[i][int(axis)] < k / 16.0 - 1) << i;
                     const uint32_t at = (shape * 2 + axis) * gpu::POINT_PREFIXES + k;
-                    EXPECT_EQ(below, count == 64 ? bitsOf(gpu::POINTS_BELOW_64[at])
-                                                 : gpu::POINTS_BELOW_32[at]);
+                    EXPECT_EQ(below, bitsOf(tables::pointTable(count)[2 * count + at]));
                 }
 }
 
@@ -92,7 +92,8 @@ TEST(PointSets, StadiumsHoldThePointsInThem)
                 const double x = std::abs(points[i].x), y = std::abs(points[i].y);
                 in |= uint64_t(x <= 1 - end || std::hypot((x - 1 + end) / end, y) <= 1) << i;
             }
-            EXPECT_EQ(in, count == 64 ? bitsOf(gpu::STADIUM_64[k - 1]) : gpu::STADIUM_32[k - 1]);
+            const uint32_t at = 4 * gpu::POINT_PREFIXES + k - 1;
+            EXPECT_EQ(in, bitsOf(tables::pointTable(count)[2 * count + at]));
         }
 }
 

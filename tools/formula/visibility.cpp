@@ -8,13 +8,7 @@
 #include "formula/glsl.h"
 #include "tables/point_table.h"
 
-// The body of the class holds the headers of shaders/shared a second time, in double precision.
-#undef GPU_BEGIN
-#undef GPU_END
-#undef GPU_SIZE
-#define GPU_BEGIN
-#define GPU_END
-#define GPU_SIZE(Type, bytes)
+#include "formula/shared_in_double.h"
 
 namespace candelabra::formula
 {

@@ -98,7 +98,7 @@ Facet distantSphereFacet(uint count, vec3 direction, float sine, mat3 viewFromWo
     return f;
 }
 
-// Of a point or spot light.
+// Returns the facet of a point or spot light, which has only the point in its middle.
 Facet pointFacet(vec3 toLight, mat3 viewFromWorld)
 {
     const float distance = max(length(toLight), 1e-30);

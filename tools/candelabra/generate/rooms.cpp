@@ -20,7 +20,7 @@ namespace
 constexpr uint32_t roomColumns = 12, roomRows = 8, roomCount = roomColumns * roomRows;
 constexpr glm::dvec3 roomSize{5, 3, 4};
 constexpr double wallThickness = 0.12, doorWidth = 1, doorHeight = 2.1;
-// Of the 172 walls between two rooms 119, seven in ten, have a door.
+// 172 walls stand between two rooms. This many of them, seven in ten, have a door.
 constexpr uint32_t doorCount = 119;
 
 struct RoomBox {
