@@ -178,8 +178,8 @@ endfunction()
 # functions of hosts, and sets candelabra_compiled_shaders to all files.
 function(candelabra_host_shaders destination)
     set(root ${CMAKE_CURRENT_FUNCTION_LIST_DIR})
-    set(kernels shade_tiles shade_unlisted shade_brute count_pairs tile_clusters split_tiles
-        cpu/tile_clusters cpu/split_tiles surface_overlay shade_environment)
+    set(kernels shade_tiles shade_unlisted shade_brute count_pairs pair_visibility tile_clusters
+        split_tiles cpu/tile_clusters cpu/split_tiles surface_overlay shade_environment)
     list(TRANSFORM kernels REPLACE "(.+)" "kernels/\\1.comp")
     candelabra_glsl_closure(included ${root} lib/forward.glsl lib/gbuffer.glsl)
     candelabra_glsl_closure(compiled ${root} ${included} ${kernels})

@@ -102,6 +102,9 @@ public:
     // lists, these are all tiles with a surface.
     const gpu::Buffer& tilesToShade(uint32_t type) const;
     const gpu::Buffer& tiles() const { return tiles_; }
+    const gpu::Buffer& clusters() const { return clusters_; }
+    uint32_t splitCapacity() const { return splitCapacity_; }
+    uint32_t firstSplit() const { return maxTileCount(); }
     const gpu::Buffer& entries() const { return entries_; }
     const gpu::Buffer& nodes() const { return nodes_; }
     const gpu::Buffer& splits() const { return splits_; }
@@ -115,7 +118,6 @@ private:
     // The buffer of clusters holds one per tile of the largest frame, then the slices of split
     // tiles, then the slices of blocks.
     uint32_t maxTileCount() const { return sizes_.maxTiles.x * sizes_.maxTiles.y; }
-    uint32_t firstSplit() const { return maxTileCount(); }
     uint32_t firstOfBlocks() const { return firstSplit() + splitCapacity_ * gpu::SLICES; }
     VkDeviceSize tileWorkBytes(uint32_t heights) const;
     Lists createLists(uint32_t type) const;

@@ -63,7 +63,12 @@ public:
 // if the kernel does not depend on the family.
 struct Job {
     std::string kernel, family;
-    std::string name() const { return family.empty() ? kernel : kernel + ":" + family; }
+    bool shadows = false; // the kernel differs if the module has shadows
+    // Kernels that replace others have their names (engine/surfaces/host_kernels.cpp).
+    std::string name() const
+    {
+        return kernel + (shadows ? "_shadows" : "") + (family.empty() ? "" : ":" + family);
+    }
 };
 
 // Returns the families of light types that these types need with these methods, both of which are
@@ -95,10 +100,12 @@ std::vector<Job> jobsOf(const CndCompileDesc& desc)
     std::vector<Job> jobs;
     for (const std::string& family : familiesOf(types, methods)) {
         for (const char* kernel : {"shade_tiles", "shade_unlisted", "shade_brute"})
-            jobs.push_back({kernel, family});
+            jobs.push_back({kernel, family, desc.shadows != VK_FALSE});
         if (reads)
             jobs.push_back({"count_pairs", family});
     }
+    if (reads && desc.shadows)
+        jobs.push_back({"pair_visibility", ""});
     if (reads)
         for (const char* kernel : {"tile_clusters", "split_tiles", "cpu/tile_clusters",
                                    "cpu/split_tiles", "surface_overlay", "shade_environment"})
@@ -149,6 +156,10 @@ std::vector<uint32_t> compile(const Job& job, const CndCompileDesc& desc)
     std::string preamble = "#extension GL_GOOGLE_include_directive : require\n";
     if (!job.family.empty())
         preamble += "#define CND_LIGHT_FAMILY_" + job.family + "\n";
+    if (job.kernel == "pair_visibility") // evaluates no light, but knows what a light is
+        preamble += "#define CND_LIGHT_FAMILY_SPHERE\n";
+    if (job.shadows)
+        preamble += "#define CND_SHADOWS\n";
     if (desc.functions & CND_HOST_VISIBILITY_BIT && !job.family.empty())
         preamble += "#define CANDELABRA_VISIBILITY\n";
     if (desc.functions & CND_HOST_READ_SURFACE_BIT)

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <cstdint>
 #include <initializer_list>
 #include <span>
@@ -104,6 +106,23 @@ struct Binding {
     {
         return {.binding = b, .image = view, .layout = VK_IMAGE_LAYOUT_GENERAL};
     }
+};
+
+// Bindings that are put together while a frame is recorded, which allocates nothing.
+class BindingList
+{
+public:
+    void add(std::span<const Binding> bindings)
+    {
+        assert(count_ + bindings.size() <= all_.size());
+        for (const Binding& b : bindings)
+            all_[count_++] = b;
+    }
+    operator std::span<const Binding>() const { return std::span(all_).first(count_); }
+
+private:
+    std::array<Binding, 16> all_{};
+    size_t count_ = 0;
 };
 
 // Descriptor set 0 of a shader: its layout, `setCount` sets of that layout, and a way to write

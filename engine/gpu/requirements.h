@@ -18,6 +18,8 @@ constexpr Parts lightingModule = CND_MODULE_LIGHTING_BIT,
 constexpr Parts allModules = lightingModule | environmentModule | exposureModule;
 // The default raster pass, and everything that the program does apart from calling the modules.
 constexpr Parts rasterPass = 1u << 31;
+// The kernels of CndLightingDesc::shadows, in addition to lightingModule.
+constexpr Parts shadowKernels = 1u << 30;
 
 // Returns how many storage buffers a kernel of the parts may have. A host's descriptor set adds its
 // own.

@@ -143,6 +143,72 @@ CndResult cndRemoveLights(CndLighting lighting, uint32_t count, const CndLightId
     });
 }
 
+CndResult cndAddOccluderMeshes(CndLighting lighting, uint32_t count, const CndOccluderMesh* meshes,
+                               CndOccluderMeshId* ids, CndError* error)
+{
+    return gpu::guard(error, [&] {
+        gpu::requireNotNull("cndAddOccluderMeshes", {lighting});
+        if (count)
+            gpu::requireNotNull("cndAddOccluderMeshes", {meshes, ids});
+        lighting->impl.occluders("cndAddOccluderMeshes").addMeshes({meshes, count}, ids);
+    });
+}
+
+CndResult cndReplaceOccluderPositions(CndLighting lighting, CndOccluderMeshId mesh,
+                                      const float* positions, uint32_t stride, CndError* error)
+{
+    return gpu::guard(error, [&] {
+        gpu::requireNotNull("cndReplaceOccluderPositions", {lighting});
+        gpu::requireNotNull("cndReplaceOccluderPositions", {positions});
+        lighting->impl.occluders("cndReplaceOccluderPositions")
+            .replacePositions(mesh, positions, stride);
+    });
+}
+
+CndResult cndRemoveOccluderMeshes(CndLighting lighting, uint32_t count,
+                                  const CndOccluderMeshId* ids, CndError* error)
+{
+    return gpu::guard(error, [&] {
+        gpu::requireNotNull("cndRemoveOccluderMeshes", {lighting});
+        if (count)
+            gpu::requireNotNull("cndRemoveOccluderMeshes", {ids});
+        lighting->impl.occluders("cndRemoveOccluderMeshes").removeMeshes({ids, count});
+    });
+}
+
+CndResult cndAddOccluders(CndLighting lighting, uint32_t count,
+                          const CndOccluderInstance* instances, CndOccluderId* ids, CndError* error)
+{
+    return gpu::guard(error, [&] {
+        gpu::requireNotNull("cndAddOccluders", {lighting});
+        if (count)
+            gpu::requireNotNull("cndAddOccluders", {instances, ids});
+        lighting->impl.occluders("cndAddOccluders").add({instances, count}, ids);
+    });
+}
+
+CndResult cndUpdateOccluders(CndLighting lighting, uint32_t count, const CndOccluderId* ids,
+                             const CndOccluderInstance* instances, CndError* error)
+{
+    return gpu::guard(error, [&] {
+        gpu::requireNotNull("cndUpdateOccluders", {lighting});
+        if (count)
+            gpu::requireNotNull("cndUpdateOccluders", {ids, instances});
+        lighting->impl.occluders("cndUpdateOccluders").update({ids, count}, {instances, count});
+    });
+}
+
+CndResult cndRemoveOccluders(CndLighting lighting, uint32_t count, const CndOccluderId* ids,
+                             CndError* error)
+{
+    return gpu::guard(error, [&] {
+        gpu::requireNotNull("cndRemoveOccluders", {lighting});
+        if (count)
+            gpu::requireNotNull("cndRemoveOccluders", {ids});
+        lighting->impl.occluders("cndRemoveOccluders").remove({ids, count});
+    });
+}
+
 CndResult cndCreateLightingView(CndLighting lighting, const CndLightingViewDesc* desc,
                                 CndLightingView* view, CndError* error)
 {

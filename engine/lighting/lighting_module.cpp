@@ -4,6 +4,7 @@
 #include <string>
 
 #include "gpu/display_format.h"
+#include "gpu/format_name.h"
 #include "lights/light_limits.h"
 #include "shading/light_batches.h"
 #include "shading/light_family.h"
@@ -31,6 +32,43 @@ void checkLightTypes(const char* owner, uint32_t lightTypes)
                           ": lightTypes has bits beyond the last CndLightType");
 }
 
+// Tells whether depth of this format, which the host may not have told, is precise enough for
+// shadows.
+bool isDepthOfShadows(VkFormat format)
+{
+    switch (format) {
+    case VK_FORMAT_UNDEFINED:
+    case VK_FORMAT_X8_D24_UNORM_PACK32:
+    case VK_FORMAT_D24_UNORM_S8_UINT:
+    case VK_FORMAT_D32_SFLOAT:
+    case VK_FORMAT_D32_SFLOAT_S8_UINT:
+    case VK_FORMAT_R32_SFLOAT:
+    case VK_FORMAT_R32G32_SFLOAT:
+    case VK_FORMAT_R32G32B32A32_SFLOAT:
+        return true;
+    default:
+        return false;
+    }
+}
+
+// `desc` is not checked yet.
+bool findsShadows(const CndLightingDesc& desc)
+{
+    return desc.structSize == sizeof desc && desc.shadows.points;
+}
+
+void checkShadows(const CndLightingDesc& desc)
+{
+    const uint32_t points = desc.shadows.points;
+    if (points != 0 && points != 32 && points != 64)
+        gpu::failArgument("CndShadowDesc: points must be 0, 32 or 64, is " +
+                          std::to_string(points));
+    if (points && !isDepthOfShadows(desc.gbuffer.depthFormat))
+        gpu::failArgument("CndShadowDesc: shadows need depth of at least 24 bits, "
+                          "CndGBufferDesc::depthFormat is " +
+                          gpu::formatName(desc.gbuffer.depthFormat));
+}
+
 CndLightingDesc checkedDesc(const gpu::Device& device, CndLightingDesc desc)
 {
     if (desc.structSize != sizeof desc)
@@ -49,6 +87,7 @@ CndLightingDesc checkedDesc(const gpu::Device& device, CndLightingDesc desc)
         gpu::failArgument("CndLightingDesc: shading needs CND_SHADING_CLUSTERED_BIT or "
                           "CND_SHADING_BRUTE_BIT, or no frame could be drawn");
     checkLightTypes("CndLightingDesc", desc.lightTypes);
+    checkShadows(desc);
     desc.radianceFormat = surfaces::checkedRadianceFormat(device, "CndLightingDesc: radianceFormat",
                                                           desc.radianceFormat);
     desc.overlayFormat =
@@ -59,18 +98,28 @@ CndLightingDesc checkedDesc(const gpu::Device& device, CndLightingDesc desc)
 } // namespace
 
 Lighting::Lighting(const CndDeviceDesc& device, const CndLightingDesc& desc)
-    : device_(device, gpu::lightingModule),
+    : device_(device, gpu::lightingModule | (findsShadows(desc) ? gpu::shadowKernels : 0)),
       desc_(checkedDesc(device_, desc)),
       gbuffer_(device_, desc_.gbufferLayout, desc_.gbuffer),
       hostKernels_(desc_.hostKernels, desc_.gbufferLayout),
       kernels_(device_, hostKernels_, desc_, gbuffer_.code(), readsLightIds(desc_)),
       albedoTable_(device_),
-      forwardLayout_(createForwardLayout(device_, desc_.forwardStages)),
+      forwardLayout_(createForwardLayout(device_, desc_.forwardStages, desc_.shadows.points != 0)),
       lights_(
           device_, recordings_, desc_.lightCapacity,
           [this](uint32_t capacity, const LightTypeCounts& types) { prepare(capacity, types); }),
-      module_{device_, desc_, recordings_, gbuffer_, hostKernels_, kernels_, albedoTable_, lights_}
+      module_{device_,  desc_,        recordings_, gbuffer_, hostKernels_,
+              kernels_, albedoTable_, lights_,     nullptr}
 {
+    if (desc_.shadows.points) {
+        occluders_.emplace(device_, recordings_, desc_.shadows.triangleCapacity,
+                           desc_.shadows.instanceCapacity, [this](uint32_t places) {
+                               for (View* view : views_)
+                                   view->makeRoomForOccluders(places);
+                           });
+        module_.occluders = &*occluders_;
+    }
+
     if (const uint32_t batch = lightsPerBatch(device_, 0); batch != UINT32_MAX)
         device_.say(CND_MESSAGE_INFO,
                     "cndCreateLighting: the device ends loops after %u iterations: lists of more "
@@ -94,6 +143,13 @@ void Lighting::addPipelines(const CndLightingPipelines& added)
     checkSpecularMethods("CndLightingPipelines", added.specularMethods);
     kernels_.shade.add(added.lightTypes, added.specularMethods,
                        checkedShading("CndLightingPipelines", added.shading));
+}
+
+OccluderSet& Lighting::occluders(const char* call)
+{
+    if (!occluders_)
+        gpu::failArgument(std::string(call) + ": CndLightingDesc::shadows.points was 0");
+    return *occluders_;
 }
 
 VkDescriptorSetLayout Lighting::forwardLayout() const

@@ -16,6 +16,8 @@ public:
 
     const gpu::Device& device() const { return device_; }
     LightSet& lights() { return lights_; }
+    // Throws gpu::Failure without CndLightingDesc::shadows. `call`: for the message.
+    OccluderSet& occluders(const char* call);
     // May be called while another thread uses the module.
     void addPipelines(const CndLightingPipelines& added);
     VkDescriptorSetLayout forwardLayout() const; // throws gpu::Failure when there is none
@@ -38,6 +40,7 @@ private:
     gpu::Handle<VkDescriptorSetLayout> forwardLayout_;
     gpu::Recordings recordings_;
     LightSet lights_;
+    std::optional<OccluderSet> occluders_;
     std::vector<View*> views_;
     Module module_;
 };

@@ -54,6 +54,9 @@ void checkDeviceLights(const gpu::Device& device, const CndDeviceLights& lights)
         gpu::failArgument("CndDeviceLights: influenceRadius must be > 0");
     if (!areLayers(lights.layers))
         gpu::failArgument("CndDeviceLights: layers has bits beyond CND_LAYER_COUNT");
+    if (lights.unshadowedBy >> CND_OCCLUDER_LAYER_COUNT)
+        gpu::failArgument("CndDeviceLights: unshadowedBy has bits beyond "
+                          "CND_OCCLUDER_LAYER_COUNT");
 }
 
 LightExtent extentWith(const LightExtent& host, size_t placed, const CndDeviceLights& device)
@@ -130,7 +133,9 @@ void DeviceLights::record(const gpu::Frame& frame) const noexcept
                      {.type = lights_.type,
                       .maxCount = lights_.maxCount,
                       .hasCount = lights_.countBuffer != VK_NULL_HANDLE,
-                      .layers = layersOf(lights_.layers)},
+                      .layers = layersOf(lights_.layers) |
+                                (flagsOfShadows(lights_.unshadowed, lights_.unshadowedBy) >>
+                                 gpu::LIGHT_LAYERS_SHIFT)},
                      gpu::divideUp(lights_.maxCount, gpu::DEVICE_LIGHTS_GROUP));
 }
 

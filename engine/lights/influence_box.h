@@ -25,6 +25,14 @@ constexpr uint32_t layersOf(uint32_t mask)
     return mask ? mask : gpu::ALL_LAYERS;
 }
 
+// Returns the bits of LightRecord::flags that say which occluders shadow a light. The arguments are
+// members of CndLight.
+constexpr uint32_t flagsOfShadows(VkBool32 unshadowed, uint32_t unshadowedBy)
+{
+    return (unshadowed ? gpu::LIGHT_UNSHADOWED : 0) | unshadowedBy
+                                                          << gpu::LIGHT_UNSHADOWED_BY_SHIFT;
+}
+
 // A box that holds the spheres of influence of some lights, in metres relative to the set's origin.
 // low > high: there are no lights.
 struct InfluenceBox {

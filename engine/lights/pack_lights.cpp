@@ -115,6 +115,8 @@ const char* whyInvalid(const CndLight& light)
     }
     if (!areLayers(light.layers))
         return "layers has bits beyond CND_LAYER_COUNT";
+    if (light.unshadowedBy >> CND_OCCLUDER_LAYER_COUNT)
+        return "unshadowedBy has bits beyond CND_OCCLUDER_LAYER_COUNT";
     if (const char* why = whyRadiusInvalid(light))
         return why;
     if (const char* why = whyAxesInvalid(light))
@@ -167,6 +169,7 @@ void pack(const CndLight& light, uint32_t id, gpu::LightRecord& r)
     r.axisV = axisV;
     const bool twoSided = light.twoSided && fields & gpu::LIGHT_HAS_SIDES;
     r.flags = light.type | layersOf(light.layers) << gpu::LIGHT_LAYERS_SHIFT |
+              flagsOfShadows(light.unshadowed, light.unshadowedBy) |
               (twoSided ? gpu::LIGHT_TWO_SIDED : 0);
 }
 

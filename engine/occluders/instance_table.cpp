@@ -39,7 +39,7 @@ InstanceTable::InstanceTable(const gpu::Device& device, gpu::Recordings& recordi
 // Any edit may lead to a new tree, so that there must be room for the upload of everything.
 void InstanceTable::reserve(size_t removed, size_t added)
 {
-    const size_t most = placed_.size() + added;
+    const size_t most = added ? count() + added : placed_.size();
     ids_.reserve(removed, added);
     gpu::reserveMore(placed_, added);
     gpu::reserveMore(records_, added);

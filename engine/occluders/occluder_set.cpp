@@ -128,7 +128,8 @@ void OccluderSet::check(const char* call, std::span<const OccluderInstance> inst
 
 void OccluderSet::reserve(size_t removed, size_t added)
 {
-    const uint64_t places = instances_.places() + uint64_t(added);
+    // Additions make the tree anew, without the places of removed instances.
+    const uint64_t places = added ? instances_.count() + uint64_t(added) : instances_.places();
     if (places > maxOccluders(device_.limits))
         gpu::failUnsupported("cndAddOccluders: " + std::to_string(places) +
                              " occluders are more than the device can take, " +

@@ -56,6 +56,11 @@ bool isIgnored(const Triangle& triangle, uint32_t ignoredLayers)
     return !triangle.blocks || (ignoredLayers >> triangle.occluderLayer & 1);
 }
 
+bool isIgnored(const Object& object, uint32_t ignoredLayers)
+{
+    return ignoredLayers >> object.occluderLayer & 1;
+}
+
 bool stops(const Triangle& triangle, const LightRay& ray)
 {
     if (isIgnored(triangle, ray.ignoredLayers))
@@ -73,6 +78,8 @@ bool isOnBall(const glm::dvec3& point, const Object& ball)
 
 bool stops(const Object& object, const LightRay& ray)
 {
+    if (isIgnored(object, ray.ignoredLayers))
+        return false;
     const glm::dvec3 offset = object.point - ray.origin;
     if (object.type == Object::Type::Plane) {
         const double t = glm::dot(offset, object.normal) / glm::dot(ray.direction, object.normal);
@@ -303,7 +310,7 @@ bool Occluders::collect(const Shaft& shaft, uint32_t ignoredLayers, size_t most,
 {
     out.clear();
     for (size_t i = 0; i < objects_.size(); ++i)
-        if (!shaft.misses(objects_[i]))
+        if (!isIgnored(objects_[i], ignoredLayers) && !shaft.misses(objects_[i]))
             out.push_back(static_cast<uint32_t>(triangles_.size() + i));
     return !walk([&](const Node& node) { return !shaft.missesBox(node.low, node.high); },
                  [&](uint32_t index) {

@@ -23,6 +23,7 @@ struct Object {
     glm::dvec3 normal{0, 1, 0}; // plane: unit normal; only the side it points to is visible
     double radius = 1;          // ball: visible from outside only
     uint32_t material = 0;      // index into Scene::materials
+    uint32_t occluderLayer = 0; // 0..31, see Scene::ignoredLayers
 };
 
 struct Triangle {
@@ -44,7 +45,7 @@ struct TriangleHit {
 struct LightRay {
     glm::dvec3 origin{0}, direction{0};
     double end = 1;
-    uint32_t ignoredLayers = 0; // bit i: triangles of occluder layer i do not stop it
+    uint32_t ignoredLayers = 0; // bit i: surfaces of occluder layer i do not stop it
 };
 
 // A convex region that contains everything between a point and an emitter: the part of the

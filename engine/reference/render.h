@@ -37,7 +37,7 @@ struct Scene {
     std::vector<Object> objects;
     std::vector<Triangle> triangles;
     std::vector<CndLight> lights;
-    // Empty, or for each light the occluder layers whose triangles do not shadow it, as bits.
+    // Empty, or for each light the occluder layers whose surfaces do not shadow it, as bits.
     std::vector<uint32_t> ignoredLayers;
     glm::dvec3 lightOrigin{0};
     glm::dvec3 background{0};   // cd/m^2 of pixels without a surface

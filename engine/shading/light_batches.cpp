@@ -36,6 +36,12 @@ uint32_t lightsPerBatch(const gpu::Device& device, uint32_t loopIterations)
     return uint32_t(std::max<uint64_t>(lights, gpu::TREE_WIDTH));
 }
 
+uint32_t walkTurns(const gpu::Device& device)
+{
+    constexpr uint32_t others = 8192; // turns of a round, and of loops beside the walk
+    return device.maxLoopIterations == UINT32_MAX ? 0 : device.maxLoopIterations - others;
+}
+
 uint32_t lightsPerBatch(const gpu::Device& device, uint32_t lightType, CndSpecularMethod method,
                         uint32_t sampleCount)
 {

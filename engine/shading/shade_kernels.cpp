@@ -7,6 +7,7 @@
 #include "candelabra_shaders.h"
 #include "clusters/clusters.h"
 #include "lights/light_limits.h"
+#include "shading/light_batches.h"
 #include "shading/light_family.h"
 #include "surfaces/radiance_format.h"
 
@@ -44,7 +45,8 @@ ShadeKernels::ShadeKernels(const gpu::Device& device, const surfaces::HostKernel
       gbuffer_(gbuffer),
       radianceFormat_(desc.radianceFormat),
       findsDiffuse_(findsDiffuseTiles(desc)),
-      measures_(desc.influenceByError)
+      measures_(desc.influenceByError),
+      shadowPoints_(desc.shadows.points)
 {
     add(desc.lightTypes | 1u << CND_LIGHT_SPHERE, desc.specularMethods, desc.shading);
 }
@@ -141,6 +143,8 @@ void ShadeKernels::addJobs(std::vector<Job>& jobs, uint32_t lightType, CndSpecul
         want({lightType, method, Brute});
     if (measures_ && shading & CND_SHADING_CLUSTERED_BIT)
         want({lightType, method, Measure});
+    if (shadowPoints_)
+        want({lightType, CND_SPECULAR_NONE, Visibility});
     if (findsDiffuse_)
         addTiles(CND_SPECULAR_NONE, gpu::CLASS_DIFFUSE);
 }
@@ -170,6 +174,9 @@ bool ShadeKernels::runJob(const Job& job)
     case Measure:
         slot.kernels.measure = std::move(made.measure);
         break;
+    case Visibility:
+        slot.kernels.visibility = std::move(made.visibility);
+        break;
     }
     slot.made.fetch_or(job.bit());
     return true;
@@ -177,16 +184,23 @@ bool ShadeKernels::runJob(const Job& job)
 
 // Returns the built-in kernels of a job: shade and unlisted of Lists, and one kernel and null of
 // other parts.
-std::array<const gpu::Spirv*, 2> ShadeKernels::kernelsOf(const Job& job)
+std::array<const gpu::Spirv*, 2> ShadeKernels::kernelsOf(const Job& job) const
 {
     const uint32_t family = familyOf(job.lightType, job.method);
     switch (job.part) {
     case Lists:
+        if (shadowPoints_)
+            return {spirv::shade_tiles_comp_shadows[family],
+                    spirv::shade_unlisted_comp_shadows[family]};
         return {spirv::shade_tiles_comp[family], spirv::shade_unlisted_comp[family]};
     case Counts:
         return {spirv::count_pairs_comp[family], nullptr};
     case Brute:
-        return {spirv::shade_brute_comp[family], nullptr};
+        return {shadowPoints_ ? spirv::shade_brute_comp_shadows[family]
+                              : spirv::shade_brute_comp[family],
+                nullptr};
+    case Visibility:
+        return {&spirv::pair_visibility_comp_sphere, nullptr};
     case Measure:
         break;
     }
@@ -213,6 +227,9 @@ ShadeKernels::Variant ShadeKernels::make(const Job& job) const
     case Measure:
         out.measure = makeKernel<gpu::MeasureInfluenceParams>(*kernels[0], job);
         break;
+    case Visibility:
+        out.visibility = makeKernel<gpu::PairVisibilityParams>(*kernels[0], job);
+        break;
     }
     return out;
 }
@@ -229,7 +246,9 @@ gpu::Kernel<Params> ShadeKernels::makeKernel(const gpu::Spirv& builtIn, const Jo
                                 {gpu::SPEC_LIGHT_TYPE, job.lightType},
                                 {gpu::SPEC_GBUFFER, gbuffer_},
                                 {gpu::SPEC_TILE_CLASS, job.tileClass},
-                                {gpu::SPEC_TILE_HEIGHT, height}},
+                                {gpu::SPEC_TILE_HEIGHT, height},
+                                {gpu::SPEC_VISIBILITY_POINTS, shadowPoints_},
+                                {gpu::SPEC_WALK_TURNS, walkTurns(*device_)}},
                                host_->setLayout());
 }
 

@@ -12,6 +12,7 @@
 #include "gpu/kernel.h"
 #include "shared/influence_data.h"
 #include "shared/lighting_data.h"
+#include "shared/occluder_data.h"
 #include "surfaces/host_kernels.h"
 
 namespace candelabra::lighting
@@ -61,9 +62,16 @@ public:
         gpu::Kernel<gpu::ShadeBruteParams> brute;
         // Only with CndLightingDesc::influenceByError.
         gpu::Kernel<gpu::MeasureInfluenceParams> measure;
+        // Only of CND_SPECULAR_NONE, for all methods, with CndLightingDesc::shadows.
+        gpu::Kernel<gpu::PairVisibilityParams> visibility;
     };
     // These return kernels of a type that is present, for a frame that is allowed.
     const Variant& variant(uint32_t type, CndSpecularMethod method) const;
+    // The kernel that finds the visibility of lights of a type, with CndLightingDesc::shadows.
+    const gpu::Kernel<gpu::PairVisibilityParams>& visibility(uint32_t type) const
+    {
+        return slots_[type][CND_SPECULAR_NONE].kernels.visibility;
+    }
     // `tileClass`: one of tileClasses().
     const Tiles& tiles(uint32_t type, CndSpecularMethod method, uint32_t tileClass) const;
     // Returns the number of tile classes that have a work list and kernels: CLASS_ANY has them, and
@@ -78,6 +86,7 @@ private:
         Counts = Lists << gpu::TILE_CLASSES, // countPairs, of CLASS_ANY
         Brute = Counts << gpu::TILE_CLASSES,
         Measure = Brute << 1,
+        Visibility = Measure << 1,
     };
     struct Job {
         uint32_t lightType;
@@ -101,7 +110,7 @@ private:
     std::vector<Job> jobsOf(const Request& request) const;
     void publish(const Request& request, const std::vector<Job>& jobs);
     bool runJob(const Job& job);
-    static std::array<const gpu::Spirv*, 2> kernelsOf(const Job& job);
+    std::array<const gpu::Spirv*, 2> kernelsOf(const Job& job) const;
     Variant make(const Job& job) const;
     template <typename Params>
     gpu::Kernel<Params> makeKernel(const gpu::Spirv& builtIn, const Job& job,
@@ -113,7 +122,8 @@ private:
     VkFormat radianceFormat_;
     bool findsDiffuse_;
     bool measures_;
-    std::mutex mutex_; // guards the list, and changes of the members after it
+    uint32_t shadowPoints_; // CndShadowDesc::points
+    std::mutex mutex_;      // guards the list, and changes of the members after it
     std::list<Request> running_;
     // Light types that have pipelines for all that frames may ask for.
     std::atomic<uint32_t> knownTypes_{0};

@@ -24,20 +24,18 @@ struct BuiltIn {
 
 // The kernels that read surfaces, apart from measure_influence, which hosts cannot replace.
 const BuiltIn builtIn[] = {
-#define X(index, NAME, iterations) {"shade_tiles:" #NAME, spirv::shade_tiles_comp[index], true},
+#define X(index, NAME, iterations)                                                                 \
+    {"shade_tiles:" #NAME, spirv::shade_tiles_comp[index], true},                                  \
+        {"shade_unlisted:" #NAME, spirv::shade_unlisted_comp[index], true},                        \
+        {"shade_brute:" #NAME, spirv::shade_brute_comp[index], true},                              \
+        {"shade_tiles_shadows:" #NAME, spirv::shade_tiles_comp_shadows[index], true},              \
+        {"shade_unlisted_shadows:" #NAME, spirv::shade_unlisted_comp_shadows[index], true},        \
+        {"shade_brute_shadows:" #NAME, spirv::shade_brute_comp_shadows[index], true},              \
+        {"count_pairs:" #NAME, spirv::count_pairs_comp[index]},
     CND_LIGHT_FAMILIES(X)
 #undef X
-#define X(index, NAME, iterations)                                                                 \
-    {"shade_unlisted:" #NAME, spirv::shade_unlisted_comp[index], true},
-        CND_LIGHT_FAMILIES(X)
-#undef X
-#define X(index, NAME, iterations) {"shade_brute:" #NAME, spirv::shade_brute_comp[index], true},
-            CND_LIGHT_FAMILIES(X)
-#undef X
-#define X(index, NAME, iterations) {"count_pairs:" #NAME, spirv::count_pairs_comp[index]},
-                CND_LIGHT_FAMILIES(X)
-#undef X
-                    {"tile_clusters", &spirv::tile_clusters_comp},
+        {"pair_visibility", &spirv::pair_visibility_comp_sphere},
+    {"tile_clusters", &spirv::tile_clusters_comp},
     {"split_tiles", &spirv::split_tiles_comp},
     {"cpu/tile_clusters", &spirv::cpu_tile_clusters_comp},
     {"cpu/split_tiles", &spirv::cpu_split_tiles_comp},
@@ -89,7 +87,8 @@ const gpu::Spirv& HostKernels::of(const gpu::Spirv& original) const
     const auto* const known = std::ranges::find(builtIn, &original, &BuiltIn::spirv);
     if (known != std::end(builtIn) && (readSurfaces_ || (!kernels_.empty() && known->evaluates)))
         failKernels(std::string("kernel ") + known->name +
-                    " is missing: name its light type and method in CndCompileDesc" +
+                    " is missing: name its light type and method in CndCompileDesc, and "
+                    "whether the module has shadows" +
                     (readSurfaces_ ? ", and CND_HOST_READ_SURFACE_BIT" : ""));
     return original;
 }

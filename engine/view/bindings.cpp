@@ -32,11 +32,21 @@ void View::writeBindings(const FramePlan& plan) const
         slot, lights.typeCounts(),
         {.gbuffer = images, .uniforms = uniforms_, .core = core_, .counters = counters_});
     if (forward_.wanted())
-        forward_.write(slot, {.core = core_,
-                              .shapes = shapes_,
-                              .nodes = clusters_.nodes(),
-                              .ids = ids_,
-                              .directionalAlbedo = albedoTable});
+        forward_.write(slot,
+                       {.core = core_,
+                        .shapes = shapes_,
+                        .nodes = clusters_.nodes(),
+                        .ids = ids_,
+                        .directionalAlbedo = albedoTable},
+                       occluderBindings(slot));
+    if (shadows_)
+        shadows_->writeBindings(plan, {.gbuffer = images,
+                                       .uniforms = uniforms_,
+                                       .core = core_,
+                                       .shapes = shapes_,
+                                       .ids = ids_,
+                                       .albedoTable = albedoTable,
+                                       .counters = counters_});
     if (influence_)
         influence_->writeBindings(slot, {.gbuffer = images,
                                          .uniforms = uniforms_,
@@ -60,6 +70,10 @@ void View::writeBruteBindings(const CndLightingFrame& frame,
 {
     using namespace gpu;
     const gpu::Buffer& albedoTable = module_.albedoTable.buffer();
+    BindingList gbuffer;
+    gbuffer.add(images.bindings());
+    if (shadows_)
+        gbuffer.add(std::array{shadows_->slots(), shadows_->view(frame.frameSlot)});
     sets_.shadeBrute.write(
         frame.frameSlot,
         {Binding::ofTexels(LIGHT_CORE_TEXELS, core_), Binding::of(LIGHT_CORE, core_),
@@ -67,7 +81,15 @@ void View::writeBruteBindings(const CndLightingFrame& frame,
          Binding::sampled(SHADE_DEPTH, images.depth), uniforms_.at(frame.frameSlot),
          Binding::storage(RADIANCE_IMAGE, frame.radiance),
          Binding::ofTexels(SHADE_DFG, albedoTable)},
-        images.bindings());
+        gbuffer);
+}
+
+gpu::BindingList View::occluderBindings(uint32_t slot) const
+{
+    gpu::BindingList out;
+    if (shadows_)
+        out.add(shadows_->occluderBindings(slot));
+    return out;
 }
 
 void View::writeShadeBindings(const CndLightingFrame& frame, const surfaces::GBufferViews& images,
@@ -93,16 +115,25 @@ void View::writeShadeBindings(const CndLightingFrame& frame, const surfaces::GBu
     const Binding surfaces = Binding::of(SHADE_WORK, clusters_.surfaces());
     const Binding toShade = Binding::of(SHADE_WORK, clusters_.tilesToShade(type));
     const Binding unlisted = Binding::of(SHADE_WORK, lists.unlisted);
+    BindingList listed, walked;
+    listed.add(gbuffer);
+    walked.add(gbuffer);
+    if (shadows_) {
+        listed.add(
+            std::array{shadows_->slots(), shadows_->pageSlots(), shadows_->view(frame.frameSlot)});
+        walked.add(shadows_->occluderBindings(frame.frameSlot));
+        walked.add(std::array{Shadows::counters(counters_)});
+    }
     sets_.shadeTiles.write(set,
                            {core, coreWords, shapes, ids, depth, uniforms, radiance, dfg, tiles,
                             heads, entries, entryTexels, toShade},
-                           gbuffer);
+                           listed);
     sets_.shadeUnlisted.write(set,
                               {core, coreWords, shapes, ids, depth, uniforms, radiance, dfg, tiles,
                                heads, unlisted,
                                Binding::ofTexels(TREE_NODE_TEXELS, clusters_.nodes()),
                                Binding::of(TREE_NODES, clusters_.nodes())},
-                              gbuffer);
+                              walked);
     // Every binding needs an image, even if the frame has no pairImage and count_pairs writes none.
     const VkImageView pairs = frame.pairImage ? frame.pairImage : frame.radiance;
     sets_.countPairs.write(set,

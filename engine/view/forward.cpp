@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/forward.h"
 
+#include "shared/occluder_data.h"
+
 namespace candelabra::lighting
 {
 namespace
@@ -8,13 +10,22 @@ namespace
 
 constexpr const char* name = "forward lights";
 
-std::vector<gpu::ReflectedBinding> bindings()
+std::vector<gpu::ReflectedBinding> bindings(bool shadows)
 {
     constexpr VkDescriptorType storage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     constexpr VkDescriptorType texels = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
-    return {{gpu::FORWARD_VIEW, storage, 1},   {gpu::FORWARD_CORE, storage, 1},
-            {gpu::FORWARD_SHAPES, storage, 1}, {gpu::FORWARD_NODES, storage, 1},
-            {gpu::FORWARD_DFG, texels, 1},     {gpu::FORWARD_IDS, storage, 1}};
+    std::vector<gpu::ReflectedBinding> out = {
+        {gpu::FORWARD_VIEW, storage, 1},   {gpu::FORWARD_CORE, storage, 1},
+        {gpu::FORWARD_SHAPES, storage, 1}, {gpu::FORWARD_NODES, storage, 1},
+        {gpu::FORWARD_DFG, texels, 1},     {gpu::FORWARD_IDS, storage, 1}};
+    if (shadows) {
+        for (const uint32_t binding : {gpu::SHADOW_INSTANCE_NODES, gpu::SHADOW_INSTANCES,
+                                       gpu::SHADOW_NODES, gpu::SHADOW_TRIANGLES})
+            out.push_back({binding, storage, 1});
+        out.push_back({gpu::SHADOW_POINTS, texels, 1});
+        out.push_back({gpu::SHADOW_VIEW, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1});
+    }
+    return out;
 }
 
 VkPipelineStageFlags stagesOf(VkShaderStageFlags shaders)
@@ -35,27 +46,29 @@ constexpr VkPipelineStageFlags ourStages =
 } // namespace
 
 gpu::Handle<VkDescriptorSetLayout> createForwardLayout(const gpu::Device& device,
-                                                       VkShaderStageFlags stages)
+                                                       VkShaderStageFlags stages, bool shadows)
 {
     constexpr VkShaderStageFlags known =
         VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT;
     if (stages & ~known)
         gpu::failArgument("CndLightingDesc: forwardStages may have the vertex, the fragment and "
                           "the compute stage");
-    return stages ? gpu::createSetLayout(device, name, bindings(), stages)
+    return stages ? gpu::createSetLayout(device, name, bindings(shadows), stages)
                   : gpu::Handle<VkDescriptorSetLayout>();
 }
 
-ForwardLights::ForwardLights(const gpu::Device& device, VkShaderStageFlags stages, uint32_t slots)
+ForwardLights::ForwardLights(const gpu::Device& device, VkShaderStageFlags stages, bool shadows,
+                             uint32_t slots)
     : stages_(stages),
       view_(gpu::createBuffer(device, name, sizeof(gpu::ForwardView),
                               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                               gpu::MemoryUse::Scratch)),
-      sets_(device, name, bindings(), stages, slots)
+      sets_(device, name, bindings(shadows), stages, slots)
 {
 }
 
-void ForwardLights::write(uint32_t slot, const Inputs& in) const
+void ForwardLights::write(uint32_t slot, const Inputs& in,
+                          std::span<const gpu::Binding> occluders) const
 {
     using gpu::Binding;
     sets_.write(slot,
@@ -63,7 +76,8 @@ void ForwardLights::write(uint32_t slot, const Inputs& in) const
                  Binding::of(gpu::FORWARD_SHAPES, in.shapes),
                  Binding::of(gpu::FORWARD_NODES, in.nodes),
                  Binding::ofTexels(gpu::FORWARD_DFG, in.directionalAlbedo),
-                 Binding::of(gpu::FORWARD_IDS, in.ids)});
+                 Binding::of(gpu::FORWARD_IDS, in.ids)},
+                occluders);
 }
 
 void ForwardLights::recordBegin(const gpu::Frame& frame,

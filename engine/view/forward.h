@@ -11,8 +11,9 @@ namespace candelabra::lighting
 
 // Creates the layout of the descriptor sets, or none if `stages` is 0. Throws gpu::Failure if
 // `stages` has other stages than vertex, fragment and compute.
+// `shadows`: the set also holds the occluders (CndLightingDesc::shadows).
 gpu::Handle<VkDescriptorSetLayout> createForwardLayout(const gpu::Device& device,
-                                                       VkShaderStageFlags stages);
+                                                       VkShaderStageFlags stages, bool shadows);
 
 // The descriptor sets of one view, one per slot, and the buffer with the view's ForwardView.
 class ForwardLights
@@ -20,14 +21,16 @@ class ForwardLights
 public:
     ForwardLights() = default; // for hosts without such shaders: wanted() is false
     // `device` must outlive it.
-    ForwardLights(const gpu::Device& device, VkShaderStageFlags stages, uint32_t slots);
+    ForwardLights(const gpu::Device& device, VkShaderStageFlags stages, bool shadows,
+                  uint32_t slots);
     bool wanted() const { return stages_ != 0; }
     VkDescriptorSet set(uint32_t slot) const { return sets_.set(slot); }
 
     struct Inputs {
         const gpu::Buffer &core, &shapes, &nodes, &ids, &directionalAlbedo;
     };
-    void write(uint32_t slot, const Inputs& inputs) const;
+    // `occluders`: Shadows::occluderBindings(), or none.
+    void write(uint32_t slot, const Inputs& inputs, std::span<const gpu::Binding> occluders) const;
     // Both do nothing unless wanted(). recordBegin makes the commands that follow wait until the
     // host's shaders have read the previous frame's lights, and writes `view`. recordEnd makes what
     // the commands before it have written visible to the host's shaders.

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/frame_passes.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "clusters/clusters.h"
 
 namespace candelabra::lighting
@@ -10,17 +13,22 @@ namespace
 
 // The name of each Pass, which is that of its kernel.
 constexpr std::array<const char*, passCount> names = {
-    "device_lights", "light_order",       "dfg_table",   "prepare_lights",
-    "project_depth", "measure_influence", "cut_lights",  "tile_clusters",
-    "split_tiles",   "block_clusters",    "light_tree",  "cluster_lists",
-    "shade_tiles",   "shade_unlisted",    "shade_brute", "count_pairs"};
+    "device_lights",   "light_order",    "dfg_table",         "prepare_lights", "prepare_occluders",
+    "polygon_facets",  "project_depth",  "measure_influence", "cut_lights",     "tile_clusters",
+    "split_tiles",     "block_clusters", "light_tree",        "cluster_lists",  "ask_pairs",
+    "pair_visibility", "shade_tiles",    "shade_unlisted",    "shade_brute",    "count_pairs",
+    "count_shadows"};
+
+constexpr Pass ofShadows[] = {Pass::PrepareOccluders, Pass::PolygonFacets, Pass::AskPairs,
+                              Pass::PairVisibility, Pass::CountShadows};
 
 constexpr Pass clustering[] = {Pass::TileClusters, Pass::SplitTiles, Pass::BlockClusters,
                                Pass::LightTree, Pass::ClusterLists};
 
 } // namespace
 
-FramePasses::FramePasses(const FrameContent& c) : listsAlone_(!c.distantInView)
+FramePasses::FramePasses(const FrameContent& c)
+    : findsShadows_(c.findsShadows), listsAlone_(!c.distantInView)
 {
     if (!c.lights)
         for (size_t pass = 0; pass < passCount; ++pass)
@@ -67,7 +75,27 @@ FramePasses::FramePasses(const FrameContent& c) : listsAlone_(!c.distantInView)
         for (const Pass pass : clustering)
             skip(pass, "surfaces and lights unchanged");
     if (!c.countPairs)
-        skip(Pass::CountPairs, "not asked for");
+        for (const Pass pass : {Pass::CountPairs, Pass::CountShadows})
+            skip(pass, "not asked for");
+    skipShadows(c);
+}
+
+void FramePasses::skipShadows(const FrameContent& c)
+{
+    for (const Pass pass : ofShadows)
+        if (c.shadowsOff)
+            skip(pass, "shadowsOff");
+        else if (!c.occludersInLayers)
+            skip(pass, "no occluder of the view's layers");
+    if (c.brute)
+        for (const Pass pass : {Pass::AskPairs, Pass::CountShadows})
+            skip(pass, "brute force");
+    if (!c.placedInView)
+        skip(Pass::AskPairs, "distant lights only");
+    if (!c.polygons)
+        skip(Pass::PolygonFacets, "no polygons");
+    if (c.listsKept)
+        skip(Pass::PolygonFacets, "surfaces and lights unchanged");
 }
 
 void FramePasses::skip(Pass pass, const char* reason)
@@ -82,10 +110,12 @@ void FramePasses::addFindings(const gpu::LightingCounters& counters)
     if (!runs(Pass::ShadeTiles)) // brute force, or no light
         return;
     if (!surfaceTileCount(counters))
-        for (const Pass pass : {Pass::SplitTiles, Pass::ShadeTiles, Pass::CountPairs})
+        for (const Pass pass : {Pass::SplitTiles, Pass::AskPairs, Pass::PairVisibility,
+                                Pass::ShadeTiles, Pass::CountPairs, Pass::CountShadows})
             skip(pass, "no surface");
     if (listsAlone_ && !counters.listEntries)
-        skip(Pass::ShadeTiles, "every list is empty");
+        for (const Pass pass : {Pass::PairVisibility, Pass::ShadeTiles})
+            skip(pass, "every list is empty");
     if (!counters.splitTiles)
         skip(Pass::SplitTiles, "no deep tile");
     if (!counters.unlistedClusters)
@@ -94,9 +124,10 @@ void FramePasses::addFindings(const gpu::LightingCounters& counters)
 
 void FramePasses::write(CndPassPlan (&out)[CND_MAX_PASSES], uint32_t& count) const
 {
-    count = passCount;
+    count = 0;
     for (size_t pass = 0; pass < passCount; ++pass)
-        out[pass] = {names[pass], skipped_[pass]};
+        if (findsShadows_ || std::ranges::find(ofShadows, Pass(pass)) == std::end(ofShadows))
+            out[count++] = {names[pass], skipped_[pass]};
 }
 
 } // namespace candelabra::lighting

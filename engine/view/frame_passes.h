@@ -15,6 +15,8 @@ enum class Pass : uint8_t {
     LightOrder,
     DfgTable,
     PrepareLights,
+    PrepareOccluders,
+    PolygonFacets,
     ProjectDepth,
     MeasureInfluence,
     CutLights,
@@ -23,12 +25,15 @@ enum class Pass : uint8_t {
     BlockClusters,
     LightTree,
     ClusterLists,
+    AskPairs,
+    PairVisibility,
     ShadeTiles,
     ShadeUnlisted,
     ShadeBrute,
-    CountPairs
+    CountPairs,
+    CountShadows
 };
-inline constexpr size_t passCount = size_t(Pass::CountPairs) + 1;
+inline constexpr size_t passCount = size_t(Pass::CountShadows) + 1;
 static_assert(passCount <= CND_MAX_PASSES);
 
 // FrameContent lists the facts about a frame, known before its recording begins, that decide which
@@ -47,7 +52,10 @@ struct FrameContent {
     bool readsAlbedoTable = false, albedoTableFilled = false;
     bool cutByError = false; // the frame follows CND_INFLUENCE_BY_ERROR (influenceOf)
     bool countPairs = false;
-    bool forward = false; // shaders of the host walk the light tree
+    bool forward = false;      // shaders of the host walk the light tree
+    bool findsShadows = false; // CndLightingDesc::shadows
+    bool occludersInLayers = false, shadowsOff = false;
+    bool polygons = false; // some lights are polygons
 };
 
 class FramePasses
@@ -62,10 +70,12 @@ public:
     void write(CndPassPlan (&out)[CND_MAX_PASSES], uint32_t& count) const;
 
 private:
+    void skipShadows(const FrameContent& content);
     void skip(Pass pass, const char* reason); // a pass keeps the reason that it got first
 
     std::array<const char*, passCount> skipped_{};
-    bool listsAlone_ = true; // there are no distant lights, which light surfaces without lists
+    bool findsShadows_ = false; // otherwise the passes of shadows are none of the module's
+    bool listsAlone_ = true;    // there are no distant lights, which light surfaces without lists
 };
 
 } // namespace candelabra::lighting

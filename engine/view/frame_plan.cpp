@@ -70,7 +70,9 @@ FramePlan planFrame(const Module& module, const CndLightingFrame& frame)
                 influenceOf(frame) == CND_INFLUENCE_GIVEN
                     ? std::min(splitLength * lights.extent().influenceRadius, gpu::UNBOUNDED)
                     : gpu::UNBOUNDED,
-            .prepare = prepareParams(lights, frame)};
+            .prepare = prepareParams(lights, frame),
+            .shadows = module.occluders && !frame.shadowsOff &&
+                       (module.occluders->instances().layers() & layersOf(frame.layers))};
 }
 
 } // namespace candelabra::lighting

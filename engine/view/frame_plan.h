@@ -16,6 +16,7 @@ struct FramePlan {
     TreeShapes trees;
     float splitLength; // gpu::TileClustersParams
     gpu::PrepareLightsParams prepare;
+    bool shadows; // occluders may shadow lights
 };
 
 // `frame` comes from checkedFrame and must outlive the plan. Throws gpu::Failure if its projection

@@ -22,6 +22,16 @@ Kernels::Kernels(const gpu::Device& device, const surfaces::HostKernels& host,
 {
     if (desc.gbuffer.depthKind != CND_DEPTH_PROJECTED)
         projectDepth = {device, spirv::project_depth_comp, {{gpu::SPEC_GBUFFER, gbuffer}}};
+    if (desc.shadows.points) {
+        prepareOccluders = PreparedOccluders::createKernel(device);
+        polygonFacets = {device,
+                         spirv::polygon_facets_comp,
+                         {{gpu::SPEC_VISIBILITY_POINTS, desc.shadows.points}}};
+        askPairs = {device, spirv::ask_pairs_comp};
+        for (uint32_t tileClass = 0; tileClass < shade.tileClasses(); ++tileClass)
+            countShadows[tileClass] = {
+                device, spirv::count_shadows_comp, {{gpu::SPEC_TILE_CLASS, tileClass}}};
+    }
 }
 
 } // namespace candelabra::lighting

@@ -5,6 +5,8 @@
 
 #include "gpu/recordings.h"
 #include "lights/light_set.h"
+#include "occluders/occluder_set.h"
+#include "occluders/prepared_occluders.h"
 #include "shading/influence.h"
 #include "shading/shade_kernels.h"
 #include "shared/project_depth.h"
@@ -27,6 +29,11 @@ struct Kernels {
     InfluenceKernels influence; // empty without CndLightingDesc::influenceByError
     gpu::Kernel<gpu::SurfaceOverlayParams> surfaceOverlay;
     gpu::Kernel<gpu::ProjectDepthParams> projectDepth; // empty if hosts' depth is projected
+    // Empty without CndLightingDesc::shadows.
+    PreparedOccluders::Kernel prepareOccluders;
+    gpu::Kernel<gpu::PolygonFacetsParams> polygonFacets;
+    gpu::Kernel<gpu::AskPairsParams> askPairs;
+    gpu::Kernel<gpu::CountShadowsParams> countShadows[gpu::TILE_CLASSES];
 };
 
 struct Module {
@@ -38,6 +45,7 @@ struct Module {
     const Kernels& kernels;
     tables::DfgTable& albedoTable;
     LightSet& lights;
+    OccluderSet* occluders; // null without CndLightingDesc::shadows
 };
 
 // Tells whether ids of lights are needed on the device: forward shaders of the host and functions

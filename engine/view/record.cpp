@@ -59,10 +59,15 @@ void View::record(VkCommandBuffer cmd, const CndLightingFrame& asked)
     forward_.recordBegin(f, forwardView(plan));
     f.barrier(); // the previous frame uses the same buffers
     module_.lights.recordUpload(f, recording);
+    if (module_.occluders)
+        module_.occluders->recordUpload(f, recording);
     // Counters of reused lists keep their values: those lists are not made again in this frame.
     const VkDeviceSize firstCounter =
         keep ? offsetof(gpu::LightingCounters, listedPairs) : VkDeviceSize(0);
-    f.device.CmdFillBuffer(cmd, counters_.get(), firstCounter, VK_WHOLE_SIZE, 0);
+    f.device.CmdFillBuffer(cmd, counters_.get(), firstCounter,
+                           sizeof(gpu::LightingCounters) - firstCounter, 0);
+    if (shadows_)
+        shadows_->recordBegin(f, plan, counters_, keep);
     f.barrier();
     module_.lights.recordDeviceCounts(f, counters_);
     if (passes.runs(Pass::ShadeTiles) || passes.runs(Pass::ShadeBrute))
@@ -81,7 +86,7 @@ bool View::keepsLists(const FramePlan& p)
     ListsKey key;
     if (frame.culling == CND_CULLING_CLUSTERED && module_.lights.count())
         key = {module_.lights.number(), frame.specularMethod, p.params.sampleCount,
-               layersOf(frame.layers), influenceOf(frame)};
+               layersOf(frame.layers),  influenceOf(frame),   p.shadows};
     // Radii by error depend on light from elsewhere in the image too, and each frame measures them
     // at other pixels. So lists that are made with such radii are not kept.
     const bool same = frame.surfacesUnchanged && key.lightSet &&
@@ -106,7 +111,11 @@ FrameContent View::contentOf(const FramePlan& p, bool listsKept) const
                      .albedoTableFilled = module_.albedoTable.filled(),
                      .cutByError = influenceOf(frame) == CND_INFLUENCE_BY_ERROR,
                      .countPairs = frame.countPairs == VK_TRUE,
-                     .forward = forward_.wanted()};
+                     .forward = forward_.wanted(),
+                     .findsShadows = module_.occluders != nullptr,
+                     .occludersInLayers = p.shadows || frame.shadowsOff,
+                     .shadowsOff = frame.shadowsOff == VK_TRUE,
+                     .polygons = lights.typeCounts()[CND_LIGHT_POLYGON] > 0};
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         if (p.lights[type])
             (isDistant(type) ? out.distantInView : out.placedInView) = true;
@@ -122,11 +131,17 @@ void View::recordPasses(const gpu::Frame& f, const FramePlan& p, const FramePass
         module_.kernels.prepareLights.dispatch(
             f, sets_.prepareLights.set(f.slot), p.prepare,
             divideUp(p.prepare.lightCount, gpu::PREPARE_LIGHTS_GROUP));
+    if (passes.runs(Pass::PrepareOccluders))
+        shadows_->recordPrepare(f, p);
     if (passes.runs(Pass::ProjectDepth))
         recordProjectDepth(f, p);
     if (passes.runs(Pass::TileClusters))
         clusters_.recordReset(f, module_.lights.typeCounts());
     f.barrier();
+    if (passes.runs(Pass::PolygonFacets)) {
+        shadows_->recordPolygons(f, p);
+        f.barrier();
+    }
     if (passes.runs(Pass::MeasureInfluence))
         recordInfluence(f, p);
     recordClusters(f, p, passes);
@@ -221,8 +236,10 @@ void View::recordLists(const gpu::Frame& f, const FramePlan& p) const noexcept
 
 uint32_t View::lightsPerBatch(const FramePlan& p, uint32_t type) const noexcept
 {
-    return lighting::lightsPerBatch(module_.device, type, p.frame.specularMethod,
-                                    p.params.sampleCount);
+    const uint32_t most = lighting::lightsPerBatch(module_.device, type, p.frame.specularMethod,
+                                                   p.params.sampleCount);
+    const bool inBatches = isDistant(type) || p.frame.culling == CND_CULLING_BRUTE;
+    return p.shadows && inBatches ? std::min(most, shadows_->lightsPerBatch(p.tileCount)) : most;
 }
 
 void View::recordClustered(const gpu::Frame& f, const FramePlan& p, uint32_t type) const noexcept
@@ -242,8 +259,18 @@ void View::recordClustered(const gpu::Frame& f, const FramePlan& p, uint32_t typ
         f.barrier();
     };
     if (isDistant(type)) { // they light every surface: no lists
-        inBatches(allLights(p, type), lightsPerBatch(p, type), shade);
+        inBatches(allLights(p, type), lightsPerBatch(p, type), [&](const gpu::LightBatch& batch) {
+            if (p.shadows)
+                shadows_->recordBatch(f, p, type, batch, {0, 0}, p.tileCount);
+            if (p.shadows && p.frame.countPairs)
+                shadows_->recordCounts(f, p, type, batch);
+            shade(batch);
+        });
     } else {
+        if (p.shadows)
+            shadows_->recordListed(f, p, type);
+        if (p.shadows && p.frame.countPairs)
+            shadows_->recordCounts(f, p, type, {});
         shade(allLights(p, type));
         recordUnlisted(f, p, type);
     }
@@ -269,25 +296,30 @@ void View::recordUnlisted(const gpu::Frame& f, const FramePlan& p, uint32_t type
             });
         u.barrier();
     };
-    record({.listHead = gpu::LIST_UNLISTED,
-            .topLevel = gpu::TREE_LEVELS,
-            .batch = allLights(p, type),
-            .tree = p.trees[type]});
-    if (module_.device.maxLoopIterations != UINT32_MAX) {
+    const bool limited = module_.device.maxLoopIterations != UINT32_MAX;
+    if (!limited || !p.shadows)
+        record({.listHead = gpu::LIST_UNLISTED,
+                .topLevel = gpu::TREE_LEVELS,
+                .batch = allLights(p, type),
+                .tree = p.trees[type]});
+    if (limited) {
         // Eight pixels of a row may belong to four clusters, whose walks run one after the other if
         // the device runs these pixels together. Finding a light also takes about as many loop
         // iterations as evaluating it.
-        const uint32_t largest =
+        const uint32_t evaluated =
             std::max(lightsPerBatch(p, type) / (2 * gpu::SLICES), gpu::TREE_WIDTH);
+        const uint32_t largest = p.shadows ? std::min(evaluated, walkedLightsPerBatch) : evaluated;
         // Batches consist of whole nodes of this level, which hold this many lights.
         uint32_t level = 1, size = gpu::TREE_WIDTH;
         for (; level < 3 && size * gpu::TREE_WIDTH <= largest; ++level)
             size *= gpu::TREE_WIDTH;
         inBatches(allLights(p, type), largest / size * size, [&](const gpu::LightBatch& batch) {
-            record({.listHead = gpu::LIST_LONG,
-                    .topLevel = level,
-                    .batch = batch,
-                    .tree = p.trees[type]});
+            for (const uint32_t head : {gpu::LIST_LONG, gpu::LIST_UNLISTED})
+                if (head == gpu::LIST_LONG || p.shadows)
+                    record({.listHead = head,
+                            .topLevel = level,
+                            .batch = batch,
+                            .tree = p.trees[type]});
         });
     }
     f.timer.stamp(f.cmd, sets_.shadeUnlisted.name());
@@ -322,11 +354,17 @@ void View::recordBrute(const gpu::Frame& f, const FramePlan& p, uint32_t type) c
         end = first + glm::uvec2(r.extent.width, r.extent.height);
     }
     inBatches(allLights(p, type), lightsPerBatch(p, type), [&](const gpu::LightBatch& batch) {
-        const gpu::UntimedFrame u(f);
+        const gpu::UntimedFrame untimed(f);
+        const gpu::Frame& u = untimed;
         inBruteRects(
             first, end, batch.count, brutePairsPerDispatch, [&](glm::uvec2 from, glm::uvec2 to) {
-                kernels.brute.dispatch(u, sets_.shadeBrute.set(f.slot), {batch, from, to},
-                                       tilesAlong(to.x - from.x), tilesAlong(to.y - from.y));
+                const glm::uvec2 tiles(tilesAlong(to.x - from.x), tilesAlong(to.y - from.y));
+                if (p.shadows) {
+                    u.barrier(); // the rectangle before this one has the same slots
+                    shadows_->recordBatch(u, p, type, batch, from, tiles);
+                }
+                kernels.brute.dispatch(u, sets_.shadeBrute.set(f.slot), {batch, from, to}, tiles.x,
+                                       tiles.y);
             });
         f.timer.stamp(f.cmd, kernels.brute.name());
         f.barrier();

@@ -2,7 +2,9 @@
 #include "view/view.h"
 
 #include <algorithm>
+#include <cstring>
 #include <string>
+#include <utility>
 
 #include "candelabra_shaders.h"
 
@@ -12,9 +14,18 @@ namespace
 {
 
 constexpr VkDeviceSize defaultListBudget = 64u << 20;
+constexpr VkDeviceSize defaultShadowBudget = 128u << 20;
 constexpr uint32_t maxSide = 16384; // pixels; largest width and height of a view
 
 constexpr VkBufferUsageFlags storageUse = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+
+// Returns how many bytes the counters of a frame take.
+VkDeviceSize counterBytes(const Module& module)
+{
+    static_assert(sizeof(gpu::LightingCounters) <= gpu::SHADOW_COUNTERS_AT);
+    return module.occluders ? gpu::SHADOW_COUNTERS_AT + sizeof(gpu::ShadowCounters)
+                            : sizeof(gpu::LightingCounters);
+}
 
 uint64_t join(glm::uvec2 lowHigh)
 {
@@ -34,10 +45,16 @@ CndLightingViewDesc checkedDesc(const gpu::Device& device, CndLightingViewDesc d
     if (!desc.listBudget)
         desc.listBudget =
             std::min<VkDeviceSize>(defaultListBudget, device.limits.maxStorageBufferRange);
-    if (desc.listBudget > device.limits.maxStorageBufferRange)
-        gpu::failUnsupported("CndLightingViewDesc: listBudget " + std::to_string(desc.listBudget) +
-                             " exceeds the device's maxStorageBufferRange " +
-                             std::to_string(device.limits.maxStorageBufferRange));
+    if (!desc.shadowBudget)
+        desc.shadowBudget =
+            std::min<VkDeviceSize>(defaultShadowBudget, device.limits.maxStorageBufferRange);
+    for (const auto& [member, budget] :
+         {std::pair("listBudget", desc.listBudget), std::pair("shadowBudget", desc.shadowBudget)})
+        if (budget > device.limits.maxStorageBufferRange)
+            gpu::failUnsupported(std::string("CndLightingViewDesc: ") + member + " " +
+                                 std::to_string(budget) +
+                                 " exceeds the device's maxStorageBufferRange " +
+                                 std::to_string(device.limits.maxStorageBufferRange));
     return desc;
 }
 
@@ -54,12 +71,12 @@ View::View(const Module& module, const CndLightingViewDesc& desc)
                  .listBudget = desc_.listBudget}),
       uniforms_(module.device, module.desc.framesInFlight),
       overlayUniforms_(module.device, module.desc.framesInFlight),
-      counters_(gpu::createBuffer(module.device, "lighting counters", sizeof(gpu::LightingCounters),
+      counters_(gpu::createBuffer(module.device, "lighting counters", counterBytes(module),
                                   storageUse | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                       VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                   gpu::MemoryUse::Scratch)),
       slots_(module.recordings, module.device, "lighting statistics", module.desc.framesInFlight,
-             sizeof(gpu::LightingCounters)),
+             counterBytes(module)),
       plans_(module.desc.framesInFlight)
 {
     const uint32_t slots = module.desc.framesInFlight;
@@ -70,9 +87,13 @@ View::View(const Module& module, const CndLightingViewDesc& desc)
         return gpu::Bindings(module.device, *families[0], count);
     };
     sets_ = {.prepareLights = k.prepareLights.createBindings(slots),
-             .shadeTiles = bindingsOf(spirv::shade_tiles_comp, perType),
-             .shadeUnlisted = bindingsOf(spirv::shade_unlisted_comp, perType),
-             .shadeBrute = bindingsOf(spirv::shade_brute_comp, slots),
+             .shadeTiles = module.occluders ? bindingsOf(spirv::shade_tiles_comp_shadows, perType)
+                                            : bindingsOf(spirv::shade_tiles_comp, perType),
+             .shadeUnlisted = module.occluders
+                                  ? bindingsOf(spirv::shade_unlisted_comp_shadows, perType)
+                                  : bindingsOf(spirv::shade_unlisted_comp, perType),
+             .shadeBrute = module.occluders ? bindingsOf(spirv::shade_brute_comp_shadows, slots)
+                                            : bindingsOf(spirv::shade_brute_comp, slots),
              .countPairs = bindingsOf(spirv::count_pairs_comp, perType),
              .surfaceOverlay = k.surfaceOverlay.createBindings(slots)};
     if (!module.gbuffer.depthIsProjected()) {
@@ -82,10 +103,14 @@ View::View(const Module& module, const CndLightingViewDesc& desc)
             VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT, VK_IMAGE_ASPECT_COLOR_BIT);
     }
     if (module.desc.forwardStages)
-        forward_ = ForwardLights(module.device, module.desc.forwardStages, slots);
+        forward_ = ForwardLights(module.device, module.desc.forwardStages,
+                                 module.occluders != nullptr, slots);
     if (module.desc.influenceByError)
         influence_.emplace(module.device, k.influence, slots,
                            glm::uvec2(desc_.maxWidth, desc_.maxHeight));
+    if (module.occluders)
+        shadows_.emplace(module, clusters_, slots, desc_.shadowBudget,
+                         tilesAlong(desc_.maxWidth) * tilesAlong(desc_.maxHeight));
     makeRoom(module.lights.capacity(), module.lights.typeCounts());
 }
 
@@ -131,6 +156,16 @@ void View::makeRoomForShapes(VkDeviceSize lights, VkDeviceSize polygons)
     polygonRoom_ = (shapes_.size - lightBytes) / cornerBytes;
 }
 
+// Returns what a frame has counted of shadows. `counted`: all its counters.
+gpu::ShadowCounters View::shadowCounters(const gpu::LightingCounters* counted) const noexcept
+{
+    gpu::ShadowCounters out{};
+    if (shadows_)
+        std::memcpy(&out, reinterpret_cast<const std::byte*>(counted) + gpu::SHADOW_COUNTERS_AT,
+                    sizeof out);
+    return out;
+}
+
 CndResult View::stats(uint32_t slot, CndLightingStats& out) const noexcept
 {
     if (slot >= slots_.count() || !slots_.isUsed(slot) || out.structSize != sizeof out)
@@ -155,6 +190,13 @@ CndResult View::stats(uint32_t slot, CndLightingStats& out) const noexcept
     out.evaluatedPairs = join(c.evaluatedPairs);
     out.insidePairs = join(c.insidePairs);
     out.contributingPairs = join(c.contributingPairs);
+    const gpu::ShadowCounters shadows = shadowCounters(counted);
+    out.askedPairs = join(shadows.asked);
+    out.partlyLitPairs = join(shadows.partly);
+    out.darkPairs = join(shadows.dark);
+    out.shadowSlots = shadows.slots;
+    out.missingShadowSlots = shadows.missingSlots;
+    out.unfinishedPairs = shadows.unfinished;
     FramePasses passes = plans_[slot].passes;
     passes.addFindings(c);
     passes.write(out.passes, out.passCount);
@@ -169,8 +211,16 @@ void View::reportProblems(const CndLightingStats& stats) const noexcept
         device.say(CND_MESSAGE_WARNING,
                    "cndGetLightingStats: %u clusters have no list, because "
                    "CndLightingViewDesc::listBudget, %llu bytes, was used up or the list too long "
-                   "for the device: they are shaded by walking the light tree, slower",
-                   stats.unlistedClusters, (unsigned long long)desc_.listBudget);
+                   "for the device%s: they are shaded by walking the light tree, slower",
+                   stats.unlistedClusters, (unsigned long long)desc_.listBudget,
+                   stats.missingShadowSlots ? ", or shadowBudget was used up" : "");
+    }
+    if (stats.unfinishedPairs && !toldUnfinished_) {
+        toldUnfinished_ = true;
+        device.say(CND_MESSAGE_WARNING,
+                   "cndGetLightingStats: %u pairs of pixel and light have less shadow than they "
+                   "should, because the device ends loops after %u iterations",
+                   stats.unfinishedPairs, device.maxLoopIterations);
     }
     if (stats.rejectedLights && toldRejected_ != module_.lights.number()) {
         toldRejected_ = module_.lights.number();

@@ -8,6 +8,7 @@
 #include "view/forward.h"
 #include "view/frame_passes.h"
 #include "view/frame_plan.h"
+#include "view/shadows.h"
 
 namespace candelabra::lighting
 {
@@ -31,6 +32,12 @@ public:
     VkDescriptorSet forwardSet(uint32_t slot) const; // throws gpu::Failure if there is none
     // Makes room for a set of lights before the module takes it. Throws gpu::Failure if that fails.
     void makeRoom(uint32_t lightCapacity, LightTypeCounts types);
+    // Makes room for so many occluders, in the same way.
+    void makeRoomForOccluders(uint32_t places)
+    {
+        if (shadows_)
+            shadows_->makeRoom(places);
+    }
 
 private:
     // The values on which the lists of a frame depend, apart from its surfaces. A frame may reuse
@@ -41,9 +48,11 @@ private:
         uint32_t sampleCount = 0;
         uint32_t layers = 0;
         CndInfluenceRule rule = CND_INFLUENCE_GIVEN;
+        bool shadows = false; // lists without slots count as having no pages
         bool operator==(const ListsKey&) const = default;
     };
 
+    gpu::ShadowCounters shadowCounters(const gpu::LightingCounters* counted) const noexcept;
     void makeRoomForShapes(VkDeviceSize lights, VkDeviceSize polygons);
 
     // record.cpp
@@ -69,6 +78,9 @@ private:
                             uint32_t type) const;
     void writeBruteBindings(const CndLightingFrame& frame,
                             const surfaces::GBufferViews& images) const;
+
+    // Returns the bindings through which kernels walk through occluders; none without shadows.
+    gpu::BindingList occluderBindings(uint32_t slot) const;
 
     // One descriptor set per slot. shadeTiles, shadeUnlisted and countPairs have one per slot and
     // light type.
@@ -99,10 +111,11 @@ private:
     std::vector<SlotPlan> plans_; // per slot
     ForwardLights forward_;
     std::optional<Influence> influence_; // CndLightingDesc::influenceByError
+    std::optional<Shadows> shadows_;     // CndLightingDesc::shadows
     ListsKey lists_;                     // what the lists of the last frame were made for
-    // What reportProblems() has already sent a message about: clusters without lists, and rejected
-    // lights of the light set of this number.
-    mutable bool toldUnlisted_ = false;
+    // What reportProblems() has already sent a message about: clusters without lists, pairs whose
+    // occluders were not all found, and rejected lights of the light set of this number.
+    mutable bool toldUnlisted_ = false, toldUnfinished_ = false;
     mutable uint64_t toldRejected_ = 0;
 };
 

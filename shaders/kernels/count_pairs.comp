@@ -4,8 +4,8 @@
 // lights that can contribute to it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_vote : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
 #include "kernels/common/shade_receiver.glsl"
 
 layout(push_constant, scalar) uniform Push
@@ -15,6 +15,7 @@ layout(push_constant, scalar) uniform Push
 
 #include "kernels/common/tile_walk.glsl"
 #include "shading/light_walk.glsl"
+#include "kernels/common/count_in_64_bits.glsl"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 layout(scalar, binding = SHADE_COUNTERS) buffer Counters
@@ -46,14 +47,6 @@ uint turns(uvec2 found)
 {
     return subgroupMax(bits(found));
 }
-
-// Adds to a 64-bit counter without 64-bit atomics: the addition that overflows the low word carries.
-#define COUNT(counter, n)                                                                          \
-    {                                                                                              \
-        const uint more = subgroupAdd(n);                                                          \
-        if (subgroupElect() && atomicAdd(counter.x, more) + more < more)                           \
-            atomicAdd(counter.y, 1u);                                                              \
-    }
 
 void main()
 {

@@ -17,6 +17,23 @@ uint lightAt(uint k)
     return params.batch.first + k;
 }
 
+#ifdef SHADOWS
+#include "shading/shadow_view.glsl"
+layout(scalar, binding = SHADOW_SLOTS) readonly buffer Slots
+{
+    uint slots[];
+};
+
+// Returns the visible shares of the k-th light of the batch at this lane's pixel.
+uint visibleSharesAt(uint k)
+{
+    if (shadowView.layers == 0u)
+        return SHARES_LIT;
+    const uint tile = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    return slots[(tile * params.batch.count + k) * SLOT_WORDS + gl_LocalInvocationIndex];
+}
+#endif
+
 #define KEPT_LANES (TILE_SIZE * TILE_SIZE)
 #define LANES_OF_RECEIVER 1u
 #include "shading/light_walk.glsl"

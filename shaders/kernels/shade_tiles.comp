@@ -12,6 +12,9 @@ layout(push_constant, scalar) uniform Push
 };
 
 #include "kernels/common/tile_walk.glsl"
+#ifdef SHADOWS
+#include "kernels/common/visible_shares_at.glsl"
+#endif
 #define MAY_READ_AHEAD true
 #define KEPT_LANES (TILE_SIZE * TILE_SIZE)
 #define LANES_OF_RECEIVER 1u
@@ -47,6 +50,9 @@ void main()
     uvec2 pixel;
     if (!takeTile(tile, pixel))
         return;
+#ifdef SHADOWS
+    walkedTile = tile;
+#endif
     const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
     if (depth != frameParams.clearDepth)
         shade(tile, pixel, depth);

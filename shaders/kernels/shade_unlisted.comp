@@ -18,7 +18,14 @@ layout(push_constant, scalar) uniform Push
 
 // The leaves that a pixel has found, in place of a page of a list. They are in shared memory because
 // an array in private memory would occupy registers, or be spilled, while lights are evaluated.
+#ifdef SHADOWS
+#include "shading/occluder_buffers.glsl"
+#define FINDS_SHARES
+#define QUEUE_LANES (TILE_SIZE * TILE_SIZE)
+const uint FOUND_LEAVES = SHADOW_BLOCK / TREE_WIDTH; // a block of block_visibility.glsl
+#else
 const uint FOUND_LEAVES = 8u; // their lights fill a block of light_walk.glsl
+#endif
 shared uint leaves[FOUND_LEAVES][TILE_SIZE * TILE_SIZE];
 
 uint lightAt(uint k)
@@ -33,6 +40,13 @@ uint lightAt(uint k)
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 #include "kernels/common/add_radiance.glsl"
+#ifdef SHADOWS
+#include "kernels/common/depth_error.glsl"
+layout(scalar, binding = SHADE_COUNTERS) buffer Counters
+{
+    ShadowCounters shadowCounters;
+};
+#endif
 
 void main()
 {
@@ -49,6 +63,9 @@ void main()
         makeReceiver(readShadingPoint(pixel, depth), frameParams.sampleCount, pixelSeed(pixel));
     const uint packedPixel = pixel.y << 16 | pixel.x; // in one register instead of two
     keep(r);
+#ifdef SHADOWS
+    pointDepthError = depthErrorAt(pixel, depth, r.p.position);
+#endif
     Sums sums = noLight();
     leaves[0][gl_LocalInvocationIndex] = 0u; // may be read even if no leaf is found
     TreeWalk walk = beginTreeWalk(params.tree, params.topLevel);
@@ -75,5 +92,9 @@ void main()
         }
         shadeBlock(sums, r, 0u, count, true);
     }
+#ifdef SHADOWS
+    if (unfinishedPairs != 0u)
+        atomicAdd(shadowCounters.unfinished, unfinishedPairs);
+#endif
     addRadiance(ivec2(packedPixel & 0xFFFFu, packedPixel >> 16), total(sums));
 }

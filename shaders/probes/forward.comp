@@ -44,6 +44,7 @@ void main()
     const vec3 position =
         viewPosition(forwardView.projection, uvec2(pixel), params.invImageSize, depth);
     outputs[i].lit = vec4(litSurface(surface, position), 1.0);
+#ifndef CANDELABRA_SHADOWS // llvmpipe takes 20 s to compile the walk in each of these functions
     const Receiver receiver = forwardReceiver(surface, position);
     vec3 stepped = vec3(0.0), illuminance = vec3(0.0), illuminanceBy = vec3(0.0);
     for (uint type = 0u; type < LIGHT_TYPE_COUNT; ++type) {
@@ -59,4 +60,5 @@ void main()
     outputs[i].stepped = vec4(stepped, 1.0);
     outputs[i].illuminance = vec4(illuminance, 1.0);
     outputs[i].illuminanceBy = vec4(illuminanceBy, 1.0);
+#endif
 }

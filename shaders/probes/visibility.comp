@@ -53,9 +53,10 @@ struct Walk {
 
 uvec2 pointsHiddenBy(Walk w, uint pair, uint triangle, uvec2 lit)
 {
+    uint turns = 0u;
     return trianglePoints(pointCount, w.facet.shape, w.facet.front, w.local, inputs[pair].localFromView,
                           sheetVertex(pair, triangle, 0u), sheetVertex(pair, triangle, 1u),
-                          sheetVertex(pair, triangle, 2u), w.ownDistance, lit);
+                          sheetVertex(pair, triangle, 2u), w.ownDistance, lit, turns);
 }
 
 // Sets which points the sheet may hide according to the tests of its box.
@@ -68,8 +69,9 @@ void testBox(Walk w, uint pair, inout VisibilityProbeOutput result)
         high = max(high, vertex);
     }
     const vec3 slack = vec3(BOX_SLACK * (1.0 + norm1(inputs[pair].localPosition)));
-    result.inBox = boxPoints(pointCount, w.facet.shape, w.local, low - slack, high + slack);
-    const FacetCone cone = facetCone(w.facet.shape, w.facet.front, w.local);
+    result.inBox = boxPoints(pointCount, w.facet.shape, w.facet.front, w.local, low - slack,
+                             high + slack);
+    const FacetCone cone = facetCone(w.facet, inputs[pair].localFromView);
     result.touchesCone = coneTouches(cone, low - slack, high + slack) ? 1u : 0u;
 }
 

@@ -28,15 +28,35 @@ uint colourOf(vec4 pairs)
     return uint(clamp(place, 0.0, 1.0) * float(HEAT_MAP_STEPS - 1u) + 0.5);
 }
 
+// The colour of a class or, after the classes, of a pixel of the legend.
+vec4 classColour(uint index)
+{
+    return unpackUnorm4x8(colours[HEAT_MAP_STEPS + index]);
+}
+
+vec4 shadowColour(vec4 shadows)
+{
+    const float asked = shadows.x, partly = shadows.y, dark = shadows.z;
+    if (asked == 0.0)
+        return classColour(0u);
+    const float lit = asked - partly - dark;
+    return (lit * classColour(1u) + partly * classColour(2u) + dark * classColour(3u)) / asked;
+}
+
 void main()
 {
     const uvec2 pixel = gl_GlobalInvocationID.xy;
     if (any(greaterThanEqual(pixel, params.size)))
         return;
-    uint at = colourOf(imageLoad(pairImage, ivec2(pixel)));
+    const vec4 pairs = imageLoad(pairImage, ivec2(pixel));
     const uint fromBottom = params.size.y - 1u - pixel.y;
+    vec4 colour;
     if (pixel.x < params.legendSize.x && fromBottom < params.legendSize.y)
-        at = HEAT_MAP_STEPS + HEAT_MAP_CLASSES +
-             (params.legendSize.y - 1u - fromBottom) * params.legendSize.x + pixel.x;
-    imageStore(displayImage, ivec2(pixel), unpackUnorm4x8(colours[at]));
+        colour = classColour(HEAT_MAP_CLASSES +
+                             (params.legendSize.y - 1u - fromBottom) * params.legendSize.x + pixel.x);
+    else if (params.which == HEAT_MAP_SHADOW)
+        colour = shadowColour(pairs);
+    else
+        colour = unpackUnorm4x8(colours[colourOf(pairs)]);
+    imageStore(displayImage, ivec2(pixel), colour);
 }

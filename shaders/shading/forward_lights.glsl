@@ -36,6 +36,16 @@ layout(scalar, set = FORWARD_SET, binding = FORWARD_IDS) readonly buffer Forward
 };
 layout(set = FORWARD_SET, binding = FORWARD_DFG) uniform textureBuffer dfgTexels;
 
+#ifdef CANDELABRA_SHADOWS
+#define SHADOWS
+#define FINDS_SHARES
+#define OCCLUDER_SET FORWARD_SET
+#include "shading/occluder_buffers.glsl"
+const uint FOUND_LIGHTS = SHADOW_BLOCK;
+#else
+const uint FOUND_LIGHTS = PAGE_LIGHTS;
+#endif
+
 // lib/dfg.glsl reads its table through this function.
 vec4 dfgTexel(int entry)
 {
@@ -53,7 +63,7 @@ vec4 lightEmission(uint light)
 }
 
 // Lights that were found and are to be evaluated. All of them are of one type.
-uint foundLights[PAGE_LIGHTS + 1u];
+uint foundLights[FOUND_LIGHTS + 1u];
 
 uint lightAt(uint k)
 {
@@ -163,7 +173,7 @@ vec3 litSurface(Surface surface, vec3 position)
             more = nextLight(cursor);
             foundLights[count] = cursor.light;
             count += more ? 1u : 0u;
-        } while (more && count < PAGE_LIGHTS);
+        } while (more && count < FOUND_LIGHTS);
         shadeBlock(sums, receiver, 0u, count, true);
         if (!more) {
             luminance += total(sums);

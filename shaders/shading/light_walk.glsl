@@ -9,6 +9,9 @@
 #include "shading/classify_lights.glsl"
 #include "shading/kept_receiver.glsl"
 #include "shading/light_eval.glsl"
+#ifdef FINDS_SHARES
+#include "shading/block_visibility.glsl"
+#endif
 
 // Returns the index of the lowest bit that is set.
 uint lowest(uvec2 bits)
@@ -52,6 +55,14 @@ vec3 total(Sums sums)
     return sums.above + (sums.near + sums.general);
 }
 
+// Evaluates the light at a place of the walk. With SHADOWS, the includer provides visibleSharesAt(k),
+// or defines FINDS_SHARES; then blocks begin at 0 and have at most SHADOW_BLOCK lights.
+#ifdef SHADOWS
+#define EVALUATE_AT(evaluate, r, k) evaluate(r, lightAt(k), visibleSharesAt(k))
+#else
+#define EVALUATE_AT(evaluate, r, k) evaluate(r, lightAt(k))
+#endif
+
 // Adds the lights of a block that are evaluated in one way to their sum. The loop tests its condition
 // at the end, so that it runs as often as the lane with the most lights needs.
 #define SHADE_FOUND(sum, which, r, first, found, evaluate)                                         \
@@ -59,7 +70,8 @@ vec3 total(Sums sums)
         uvec2 left = found;                                                                        \
         do {                                                                                       \
             IF_ANY_LEFT(left)                                                                      \
-            addLight(sum, which, evaluate(readAgain(r), lightAt((first) + lowest(left))));         \
+            addLight(sum, which,                                                                   \
+                     EVALUATE_AT(evaluate, readAgain(r), (first) + lowest(left)));                 \
             left = withoutLowest(left);                                                            \
         } while (!none(left));                                                                     \
     }
@@ -68,6 +80,9 @@ vec3 total(Sums sums)
 void shadeBlock(inout Sums sums, Receiver r, uint first, uint count, bool testInfluence)
 {
     const Found found = findLights(readAgain(r), first, count, testInfluence);
+#ifdef FINDS_SHARES
+    findShares(readAgain(r), found.above | found.near | found.general);
+#endif
 #define X(WAY, which, SUM, response)                                                               \
     if (POSSIBLE_##WAY) {                                                                          \
         SHADE_FOUND(sums.which, SUM, r, first, found.which, evaluate_##WAY)                        \

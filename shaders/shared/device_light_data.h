@@ -32,7 +32,7 @@ struct DeviceLightsParams {
     uint type; // LIGHT_*
     uint maxCount;
     uint hasCount; // 0: there are maxCount lights
-    uint layers;   // layers of all these lights
+    uint layers;   // of all these lights: LightRecord::flags >> LIGHT_LAYERS_SHIFT
 };
 GPU_SIZE(DeviceLightsParams, 16)
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What casts shadows, as kernels see it: meshes of triangles with their trees, and instances of
-// them with a tree over all.
+// What casts shadows, as kernels see it: meshes of triangles with their trees, instances of them
+// with a tree over all, and the work of the kernels that find which parts of a light a pixel sees.
 #ifndef CND_SHARED_OCCLUDER_DATA_H
 #define CND_SHARED_OCCLUDER_DATA_H
 
-#include "shared/prelude.h"
+#include "shared/cluster_data.h"
 
 GPU_BEGIN
 
@@ -59,6 +59,118 @@ struct OccluderInstance {
     float surfaceError;
 };
 GPU_SIZE(OccluderInstance, 112)
+
+// What walks through occluders need to know of a frame. In a uniform buffer.
+struct ShadowView {
+    mat3 viewFromTree; // rotation from the space of the tree over instances, that of the world
+    vec3 viewInTree;   // position of the origin of view space there
+    uint layers;       // of the frame; 0: the frame has no shadows
+    float depthStep;   // of a depth format of integers; 0: depth is a float
+    uint points;       // as SPEC_VISIBILITY_POINTS
+    uint walkTurns;    // as SPEC_WALK_TURNS
+};
+GPU_SIZE(ShadowView, 64)
+
+// Bindings of the kernels that walk through occluders, and of the forward set.
+const uint SHADOW_INSTANCE_NODES = 24u;
+const uint SHADOW_INSTANCES = 25u;
+const uint SHADOW_NODES = 26u;
+const uint SHADOW_TRIANGLES = 27u;
+const uint SHADOW_POINTS = 28u; // texel buffer: engine/tables/point_table.h
+const uint SHADOW_VIEW = 29u;
+// Bindings of the kernels that read or write visible shares.
+const uint SHADOW_SLOTS = 30u;
+const uint SHADOW_PAGE_SLOTS = 31u; // per page of the entry buffer: the slot of its first light
+
+// Specialisation constant of kernels that walk through occluders: points per light, 64 or 32.
+const uint SPEC_VISIBILITY_POINTS = 9u;
+// How many turns of loops the walks of one invocation may take (occluder_walk.glsl); 0: no limit.
+const uint SPEC_WALK_TURNS = 10u;
+
+// A pair of cluster and light whose visibility is asked for. The pair's slot has the same index: a
+// word for each pixel of the cluster's tile, which holds the visible shares of the diffuse lobe
+// (low 16 bits) and of the specular lobe in units of 1 / SHARE_UNIT. So a share of 1 is exact.
+struct AskRecord {
+    uint tile;
+    uint cluster;
+    uint light;
+};
+GPU_SIZE(AskRecord, 12)
+const uint SLOT_WORDS = 64u;
+const uint ASK_ROW = 1024u; // groups of pair_visibility in a row, one per record
+// Lights whose shares a lane finds before it evaluates them, if it walks for itself. The shares of
+// more would occupy too many registers.
+const uint SHADOW_BLOCK = 16u;
+const float SHARE_UNIT = 32768.0f;
+const uint SHARES_LIT = 0x80008000u;
+// The light does not reach the pixel, or the cluster is not the pixel's. Nothing evaluates the
+// light there, unless kernels differ in rounding; then it counts as lit (1 + 1 / SHARE_UNIT).
+const uint SHARES_UNASKED = 0x80018001u;
+
+// Counted for one frame, after the LightingCounters in the same buffer.
+const uint SHADOW_COUNTERS_AT = 256u; // bytes
+struct ShadowCounters {
+    uint missingSlots;
+    uint slots;      // the most that one light type took
+    uint unfinished; // pairs
+    uint unused;
+    uvec2 asked; // 64 bit: low, high
+    uvec2 partly;
+    uvec2 dark;
+};
+GPU_SIZE(ShadowCounters, 40)
+
+// --- polygon_facets: which rectangle stands for a polygon, one lane per polygon
+const uint POLYGON_FACETS_GROUP = 64u;
+const uint POLYGON_FACETS_RECORDS = 0u;
+const uint POLYGON_FACETS_ORDER = 1u; // shared/light_order_data.h
+const uint POLYGON_FACETS_SHAPES = 2u;
+struct PolygonFacetsParams {
+    uint firstPolygon; // in the sorted order
+    uint count;
+};
+GPU_SIZE(PolygonFacetsParams, 8)
+
+// --- ask_pairs: makes a record of each light in a tile's or slice's list, one group per cluster
+const uint ASK_PAIRS_GROUP = 64u;
+const uint ASK_PAIRS_CLUSTERS = 0u;
+const uint ASK_PAIRS_TILES = 1u;
+const uint ASK_PAIRS_SPLITS = 2u;
+const uint ASK_PAIRS_LISTS = 3u;
+const uint ASK_PAIRS_ENTRIES = 4u;
+const uint ASK_PAIRS_UNLISTED = 5u;
+const uint ASK_PAIRS_COUNTERS = 6u;
+const uint ASK_PAIRS_SHADOW_COUNTERS = 7u;
+// A WorkList, then AskRecords. WorkList::count also counts slots that there were not; all records
+// before WorkList::first are written.
+const uint ASK_PAIRS_RECORDS = 8u;
+struct AskPairsParams {
+    uint tileCount;
+    uint firstSplit, splitCapacity; // as in TileClustersParams
+    uint capacity;                  // of records and slots
+    uint lightType;
+};
+GPU_SIZE(AskPairsParams, 20)
+
+// --- pair_visibility: the visible shares of a light at the pixels of a tile, one group per pair.
+// The pairs are those of the records, or those of all tiles and the lights of a batch, whose slots
+// follow one another tile by tile. Other bindings are as in shade_tiles.
+const uint VISIBILITY_RECORDS = 10u;
+struct PairVisibilityParams {
+    LightBatch batch; // the lights at every tile; a count of 0: the pairs are those of the records
+    uvec2 first;      // with a batch: first pixel of the first tile
+    uint tileCountX;  // with a batch: tiles in a row
+};
+GPU_SIZE(PairVisibilityParams, 20)
+
+// --- count_shadows: counts what pair_visibility has found, 8x8 pixels per group. Bindings are as
+// in count_pairs.
+struct CountShadowsParams {
+    LightBatch batch; // as in ShadeTilesParams
+    uint isDistant;
+    uint writesImage; // 1: also adds its counts to the image (SHADE_PAIRS)
+};
+GPU_SIZE(CountShadowsParams, 16)
 
 // --- prepare_occluders: transforms instances to view space, one lane per instance
 const uint PREPARE_OCCLUDERS_GROUP = 64u;

@@ -470,7 +470,8 @@ LightingResult LightingTest::run(const CpuGBuffer& g, const std::vector<CndLight
     const CndLightingViewDesc viewDesc{.structSize = sizeof viewDesc,
                                        .maxWidth = g.width,
                                        .maxHeight = g.height,
-                                       .listBudget = options.listBudget};
+                                       .listBudget = options.listBudget,
+                                       .shadowBudget = options.shadowBudget};
     CndLightingView view{};
     EXPECT_EQ(cndCreateLightingView(lighting, &viewDesc, &view, &error), CND_SUCCESS)
         << error.message;
@@ -492,6 +493,7 @@ LightingResult LightingTest::run(const CpuGBuffer& g, const std::vector<CndLight
         frame.frameSlot = uint32_t(i) % runFramesInFlight;
         frame.surfacesUnchanged = options.unchanged && i > 0;
         options.beforeFrame();
+        options.changeFrame(frame);
         result.radiance = drawFrame(view, frame, images);
     }
     result.stats = statsOf(view, frame.frameSlot);

@@ -80,7 +80,7 @@ struct LightingResult {
 struct RunOptions {
     CndSpecularMethod specular = CND_SPECULAR_KARIS;
     CndCulling culling = CND_CULLING_CLUSTERED;
-    VkDeviceSize listBudget = 0;
+    VkDeviceSize listBudget = 0, shadowBudget = 0;
     bool countPairs = false;
     const CndDeviceDesc* host = nullptr; // instead of the fixture's device, for interposed
                                          // functions
@@ -102,6 +102,7 @@ struct RunOptions {
     bool diffuseOnlyTiles = false;
     std::function<void()> beforeFrame = [] {};
     std::function<void(CndLightingFrame&)> withFrame = [](CndLightingFrame&) {};
+    std::function<void(CndLightingFrame&)> changeFrame = [](CndLightingFrame&) {}; // each of them
 };
 
 class LightingTest : public GpuTest

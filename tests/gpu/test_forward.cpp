@@ -4,6 +4,7 @@
 // behind and beside them.
 #include <cmath>
 #include <iostream>
+#include <random>
 
 #include "candelabra_probes.h"
 #include "gpu/kernel.h"
@@ -23,17 +24,19 @@ constexpr double tolerance = 1e-5;
 class ForwardTest : public LightingTest
 {
 protected:
-    void create(const CpuGBuffer& g, const std::vector<CndLight>& lights, bool byError = false)
+    void create(const CpuGBuffer& g, const std::vector<CndLight>& lights, bool byError = false,
+                uint32_t shadowPoints = 0)
     {
         own_ = createLighting(
             g, CndLightingDesc{.framesInFlight = 2,
                                .specularMethods = 1u << CND_SPECULAR_CONIC,
                                .shading = CND_SHADING_CLUSTERED_BIT | CND_SHADING_BRUTE_BIT,
                                .forwardStages = VK_SHADER_STAGE_COMPUTE_BIT,
-                               .influenceByError = byError});
+                               .influenceByError = byError,
+                               .shadows = {.points = shadowPoints}});
         ASSERT_TRUE(own_.lighting && own_.view);
         setLights(own_.lighting, lights);
-        createPipeline();
+        createPipeline(shadowPoints ? spirv::forward_comp_candelabra_shadows : spirv::forward_comp);
     }
     void TearDown() override
     {
@@ -42,7 +45,7 @@ protected:
         bindings_ = {};
         LightingTest::TearDown();
     }
-    void createPipeline()
+    void createPipeline(const gpu::Spirv& spirv)
     {
         CndError error{};
         VkDescriptorSetLayout forward{};
@@ -61,7 +64,7 @@ protected:
         layout_ =
             gpu::createPipelineLayout(device(), "forward probe", sets, VK_SHADER_STAGE_COMPUTE_BIT,
                                       sizeof(gpu::ForwardProbeParams));
-        const auto shader = gpu::createShaderModule(device(), spirv::forward_comp);
+        const auto shader = gpu::createShaderModule(device(), spirv);
         const VkComputePipelineCreateInfo info{
             .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
             .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
@@ -364,4 +367,36 @@ TEST_F(ForwardTest, SetsThatAreNotThereAreNamed)
 }
 
 } // namespace
+TEST_F(ForwardTest, FindsTheShadowsOfTheModulesOccluders)
+{
+    const CpuGBuffer seen = gbuffer(3);
+    const std::vector<CndLight> lights = everyType(seen, 8);
+    create(seen, lights, false, 64);
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> uniform(-1, 1);
+    std::vector<float> positions;
+    for (int i = 0; i < 100; ++i) {
+        const float x = 5 * uniform(random), y = 4 * uniform(random), z = -8 + 4 * uniform(random);
+        for (int k = 0; k < 3; ++k)
+            for (const float at : {x, y, z})
+                positions.push_back(at + uniform(random));
+    }
+    const CndOccluderMesh mesh{
+        .positions = positions.data(), .vertexCount = 300, .triangleCount = 100};
+    CndOccluderInstance instance{.worldFromMesh = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}};
+    CndOccluderId id = 0;
+    CndError error{};
+    ASSERT_EQ(cndAddOccluderMeshes(own_.lighting, 1, &mesh, &instance.mesh, &error), CND_SUCCESS)
+        << error.message;
+    ASSERT_EQ(cndAddOccluders(own_.lighting, 1, &instance, &id, &error), CND_SUCCESS)
+        << error.message;
+    const RunOptions options{.specular = CND_SPECULAR_CONIC};
+    const Lit shadowed = frame(seen, seen, options);
+    std::vector<glm::vec4> twice = shadowed.lit(); // the view was recorded twice
+    for (glm::vec4& pixel : twice)
+        pixel *= 2;
+    expectAlike(twice, shadowed.deferred, seen, lights, options);
+    EXPECT_GT(maxRelativeDifference(run(seen, lights, options).radiance, shadowed.lit()), 0.01);
+}
+
 } // namespace candelabra::test

@@ -2,6 +2,7 @@
 // Tests functions of a host in the kernels (candelabra/compiler.h): its shadow term multiplies each
 // light by id, and a G-buffer that it reads itself is lit like the same surfaces in a built-in
 // layout.
+#include <cmath>
 #include <cstdlib>
 #include <string>
 
@@ -425,4 +426,47 @@ TEST_F(HostFunctions, WhatIsMissingOrForeignIsNamed)
 }
 
 } // namespace
+// The host's shadow term multiplies the shadows of occluders.
+TEST_F(HostFunctions, AShadowTermMultipliesShadowsOfOccluders)
+{
+    const CompiledKernels kernels =
+        compiled({.functions = CND_HOST_VISIBILITY_BIT,
+                  .source = "float candelabraVisibility(CndShadowQuery q) { return 0.5; }",
+                  .lightTypes = 1u << CND_LIGHT_SPHERE,
+                  .shadows = VK_TRUE});
+    auto lights = randomSpheres(g_, 20, 3);
+    for (CndLight& light : lights) { // near the camera, which is in front of the occluder
+        light.position[2] = -1;
+        light.influenceRadius = INFINITY;
+    }
+    const float positions[] = {-2, -2, -2, 2, -2, -2, 0, 2, -2};
+    const CndOccluderMesh mesh{.positions = positions, .vertexCount = 3, .triangleCount = 1};
+    const Images images = uploadImages(g_);
+    std::vector<glm::vec4> drawn[2];
+    for (int ofHost = 0; ofHost < 2; ++ofHost) {
+        const auto own = createLighting(
+            g_, CndLightingDesc{.framesInFlight = 1,
+                                .specularMethods = 1u << CND_SPECULAR_CONIC,
+                                .shading = CND_SHADING_CLUSTERED_BIT,
+                                .hostKernels = ofHost ? kernels.hostKernels() : CndHostKernels{},
+                                .shadows = {.points = 64}});
+        setLights(own.lighting, lights);
+        const CndLightingFrame frame =
+            frameOf(g_, images, {.specular = CND_SPECULAR_CONIC, .hostSet = shadowSet_.set(0)});
+        const auto unshadowed = drawFrame(own.view, frame, images);
+        CndOccluderInstance instance{.worldFromMesh = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}};
+        CndOccluderId id = 0;
+        CndError error{};
+        ASSERT_EQ(cndAddOccluderMeshes(own.lighting, 1, &mesh, &instance.mesh, &error), CND_SUCCESS)
+            << error.message;
+        ASSERT_EQ(cndAddOccluders(own.lighting, 1, &instance, &id, &error), CND_SUCCESS)
+            << error.message;
+        drawn[ofHost] = drawFrame(own.view, frame, images);
+        EXPECT_FALSE(sameBits(drawn[ofHost], unshadowed));
+    }
+    for (glm::vec4& pixel : drawn[1])
+        pixel *= 2;
+    EXPECT_TRUE(agree(drawn[0], drawn[1]));
+}
+
 } // namespace candelabra::test

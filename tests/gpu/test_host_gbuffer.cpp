@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <iostream>
+#include <random>
 
 #include <glm/gtc/matrix_transform.hpp>
 

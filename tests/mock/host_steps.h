@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A host on the mock driver that, step by step, creates all modules, sets lights of several kinds,
-// edits them, records and asks for statistics; a host that draws with the raster pass; and one of
-// the set of occluders.
+// edits them, records and asks for statistics; a host that draws with the raster pass; and one with
+// shadows.
 #pragma once
 
 #include <functional>
@@ -16,8 +16,6 @@ namespace candelabra::test
 
 // The second number of polygons is more than there is room for after the first one.
 constexpr uint32_t firstPolygons = 2, morePolygons = 70;
-
-struct OccluderModule; // mock/occluder_steps.cpp
 
 struct Host {
     MockVulkan vulkan;
@@ -36,9 +34,8 @@ struct Host {
     std::unique_ptr<gbuffer::Geometry> geometry;
 
     // Used by occluderSteps() only.
-    std::shared_ptr<OccluderModule> occluders;
-    uint32_t occluderCount = 0; // as the calls that succeeded leave it
-    uint32_t countedOccluders() const;
+    CndOccluderMeshId occluderMesh = 0; // that all occluders use
+    uint32_t occluderCount = 0;         // as the calls that succeeded leave it
 
     ~Host() { destroy(); }
     void destroy();

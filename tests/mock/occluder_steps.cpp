@@ -1,22 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Steps of the set of occluders, whose C++ interface throws what the C ABI will report.
-#include "harness/occluder_host.h"
+// Steps of a host that gives a module occluders, edits them and records shadows.
 #include "mock/host_steps.h"
 
 namespace candelabra::test
 {
-
-struct OccluderModule {
-    explicit OccluderModule(const CndDeviceDesc& desc) : device(desc, gpu::lightingModule) {}
-    gpu::Device device;
-    OccluderHost host{device};
-};
-
 namespace
 {
-
-using lighting::OccluderInstance;
-using lighting::OccluderMesh;
 
 // Each number needs larger buffers than the one before.
 constexpr uint32_t fewTriangles = 2, manyTriangles = 3000, fewOccluders = 2, manyOccluders = 700;
@@ -24,9 +13,9 @@ constexpr uint32_t fewTriangles = 2, manyTriangles = 3000, fewOccluders = 2, man
 // Static, so that nothing of it is allocated while the heap fails.
 struct OccluderInputs {
     float positions[9 * manyTriangles];
-    OccluderInstance instances[manyOccluders];
-    lighting::OccluderId ids[fewOccluders + manyOccluders];
-    lighting::OccluderMeshId meshes[2];
+    CndOccluderInstance instances[manyOccluders];
+    CndOccluderId ids[fewOccluders + manyOccluders];
+    CndOccluderMeshId largeMesh;
 };
 OccluderInputs& occluderInputs()
 {
@@ -44,99 +33,143 @@ OccluderInputs& occluderInputs()
     return in;
 }
 
-lighting::OccluderSet& occludersOf(Host& h)
+CndResult addMesh(Host& h, uint32_t triangles, CndOccluderMeshId* id, CndError* error)
 {
-    return h.occluders->host.set;
-}
-
-CndResult addMesh(Host& h, uint32_t which, uint32_t triangles, CndError* error)
-{
-    const OccluderMesh mesh{.positions = occluderInputs().positions,
-                            .vertexCount = 3 * triangles,
-                            .triangleCount = triangles};
-    return gpu::guard(error, [&] {
-        occludersOf(h).addMeshes({&mesh, 1}, &occluderInputs().meshes[which]);
-    });
+    const CndOccluderMesh mesh{.positions = occluderInputs().positions,
+                               .vertexCount = 3 * triangles,
+                               .triangleCount = triangles};
+    return cndAddOccluderMeshes(h.lighting, 1, &mesh, id, error);
 }
 
 CndResult addOccluders(Host& h, uint32_t first, uint32_t count, CndError* error)
 {
-    for (OccluderInstance& instance : occluderInputs().instances)
-        instance.mesh = occluderInputs().meshes[0];
-    return gpu::guard(error, [&] {
-        occludersOf(h).add(std::span(occluderInputs().instances, count),
-                           occluderInputs().ids + first);
+    OccluderInputs& in = occluderInputs();
+    for (CndOccluderInstance& instance : in.instances)
+        instance.mesh = h.occluderMesh;
+    const CndResult result =
+        cndAddOccluders(h.lighting, count, in.instances, in.ids + first, error);
+    if (result == CND_SUCCESS)
         h.occluderCount += count;
-    });
+    return result;
 }
 
-CndResult recordOccluders(Host& h, CndError*)
+CndResult recordShadows(Host& h, CndError* error)
 {
-    constexpr double viewFromWorld[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    h.occluders->host.record(MockVulkan::commandBuffer(), viewFromWorld);
-    return CND_SUCCESS;
+    const VkImageView any = MockVulkan::imageView();
+    const CndLightingFrame frame{.structSize = sizeof frame,
+                                 .width = 64,
+                                 .height = 48,
+                                 .camera = MockVulkan::camera(),
+                                 .normalRoughness = any,
+                                 .albedo = any,
+                                 .specular = any,
+                                 .depth = any,
+                                 .radiance = any,
+                                 .countPairs = VK_TRUE,
+                                 .shadowImage = any};
+    return cndRecordLighting(h.view, MockVulkan::commandBuffer(), &frame, error);
 }
 
-} // namespace
-
-uint32_t Host::countedOccluders() const
+// Creates a module with shadows, a view, and lights.
+std::vector<Step> shadowCreationSteps()
 {
-    return occluders ? occluders->host.set.instances().count() : 0;
-}
-
-const std::vector<Step>& occluderSteps()
-{
-    static const std::vector<Step> all = {
-        {"create occluders", false,
+    return {
+        {"create lighting", false,
          [](Host& h, CndError* error) {
-             return gpu::guard(error, [&] {
-                 h.occluderCount = 0;
-                 h.occluders = std::make_shared<OccluderModule>(h.device);
-             });
+             h.lightCount = h.occluderCount = 0;
+             const CndLightingDesc desc{.structSize = sizeof desc,
+                                        .framesInFlight = 1,
+                                        .forwardStages = VK_SHADER_STAGE_FRAGMENT_BIT,
+                                        .lightTypes = 1u << CND_LIGHT_POLYGON,
+                                        .shadows = {.points = 64}};
+             return cndCreateLighting(&h.device, &desc, &h.lighting, error);
          }},
+        {"create view", false,
+         [](Host& h, CndError* error) {
+             const CndLightingViewDesc desc{.structSize = sizeof desc,
+                                            .maxWidth = 64,
+                                            .maxHeight = 48,
+                                            .listBudget = 1 << 16,
+                                            .shadowBudget = 1 << 16};
+             return cndCreateLightingView(h.lighting, &desc, &h.view, error);
+         }},
+        {"add lights", false,
+         [](Host& h, CndError* error) {
+             static constexpr CndPolygon polygon{3, {{-1, -1}, {1, -1}, {0, 1}}};
+             const CndLight lights[] = {
+                 {.type = CND_LIGHT_SPHERE, .radius = 0.1f, .influenceRadius = 5},
+                 {.type = CND_LIGHT_POLYGON,
+                  .influenceRadius = 5,
+                  .axisU = {0.5f, 0, 0},
+                  .axisV = {0, 0.5f, 0},
+                  .polygon = &polygon,
+                  .unshadowedBy = 1}};
+             CndLightId ids[2];
+             const CndResult result = cndAddLights(h.lighting, 2, lights, ids, error);
+             if (result == CND_SUCCESS)
+                 h.lightCount = 2;
+             return result;
+         }},
+    };
+}
+
+// Adds, changes and removes occluders, and records after each.
+std::vector<Step> occluderEditSteps()
+{
+    return {
+        {"record without occluders", true, recordShadows},
         {"add mesh", false,
-         [](Host& h, CndError* error) { return addMesh(h, 0, fewTriangles, error); }},
+         [](Host& h, CndError* error) { return addMesh(h, fewTriangles, &h.occluderMesh, error); }},
         {"add occluders", false,
          [](Host& h, CndError* error) { return addOccluders(h, 0, fewOccluders, error); }},
-        {"record", true, recordOccluders},
+        {"record", true, recordShadows},
         {"add a larger mesh", false,
-         [](Host& h, CndError* error) { return addMesh(h, 1, manyTriangles, error); }},
+         [](Host& h, CndError* error) {
+             return addMesh(h, manyTriangles, &occluderInputs().largeMesh, error);
+         }},
         {"add more occluders", false,
          [](Host& h, CndError* error) {
              return addOccluders(h, fewOccluders, manyOccluders, error);
          }},
-        {"record more occluders", true, recordOccluders},
+        {"record more occluders", true, recordShadows},
         {"update occluders", false,
          [](Host& h, CndError* error) {
-             return gpu::guard(error, [&] {
-                 occludersOf(h).update(std::span(occluderInputs().ids, 9),
-                                       std::span(occluderInputs().instances + 5, 9));
-             });
+             return cndUpdateOccluders(h.lighting, 9, occluderInputs().ids,
+                                       occluderInputs().instances + 5, error);
          }},
         {"replace positions", false,
          [](Host& h, CndError* error) {
-             return gpu::guard(error, [&] {
-                 occludersOf(h).replacePositions(occluderInputs().meshes[0],
-                                                 occluderInputs().positions + 3, 0);
-             });
+             return cndReplaceOccluderPositions(h.lighting, h.occluderMesh,
+                                                occluderInputs().positions + 3, 0, error);
          }},
-        {"record what has moved", true, recordOccluders},
+        {"record what has moved", true, recordShadows},
         {"remove occluders", false,
          [](Host& h, CndError* error) {
-             return gpu::guard(error, [&] {
-                 occludersOf(h).remove(std::span(occluderInputs().ids, 600));
+             const CndResult result =
+                 cndRemoveOccluders(h.lighting, 600, occluderInputs().ids, error);
+             if (result == CND_SUCCESS)
                  h.occluderCount -= 600;
-             });
+             return result;
          }},
         {"remove mesh", false,
          [](Host& h, CndError* error) {
-             return gpu::guard(error, [&] {
-                 occludersOf(h).removeMeshes({&occluderInputs().meshes[1], 1});
-             });
+             return cndRemoveOccluderMeshes(h.lighting, 1, &occluderInputs().largeMesh, error);
          }},
-        {"record what is left", true, recordOccluders},
+        {"record what is left", true, recordShadows},
     };
-    (void)occluderInputs();
+}
+
+} // namespace
+
+const std::vector<Step>& occluderSteps()
+{
+    static const std::vector<Step> all = [] {
+        (void)occluderInputs();
+        std::vector<Step> out = shadowCreationSteps();
+        const std::vector<Step> edits = occluderEditSteps();
+        out.insert(out.end(), edits.begin(), edits.end());
+        return out;
+    }();
     return all;
 }
 

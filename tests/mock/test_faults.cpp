@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Makes every Vulkan call that can fail do so, one by one, in a host that creates all modules, sets
 // lights of several kinds, records and asks for statistics, in a host that draws with the raster
-// pass, and in one of the set of occluders. Then does the same with heap allocations. Each time the
-// step must return a result code and a sentence, leak nothing, and succeed when it is run again.
+// pass, and in one with shadows. Then does the same with heap allocations. Each time the step must
+// return a result code and a sentence, leak nothing, and succeed when it is run again.
 #include <array>
 #include <iostream>
 
@@ -51,12 +51,13 @@ const Family families[] = {
       "BindImageMemory", "CreateSampler", "GetQueryPoolResults"}},
     {"Occluders",
      occluderSteps,
-     80,
-     200,
-     {"create occluders", "add mesh", "add occluders", "add a larger mesh", "add more occluders"},
-     {"CreateBuffer", "AllocateMemory", "BindBufferMemory", "MapMemory", "CreateShaderModule",
-      "CreateComputePipelines", "CreatePipelineLayout", "CreateDescriptorSetLayout",
-      "CreateDescriptorPool", "AllocateDescriptorSets"}},
+     100,
+     1000,
+     {"create lighting", "create view", "add mesh", "add occluders", "add a larger mesh",
+      "add more occluders"},
+     {"CreateBuffer", "AllocateMemory", "BindBufferMemory", "MapMemory", "CreateBufferView",
+      "CreateShaderModule", "CreateComputePipelines", "CreatePipelineLayout",
+      "CreateDescriptorSetLayout", "CreateDescriptorPool", "AllocateDescriptorSets"}},
 };
 
 // With the sanitizers runs take ten times as long, and tests do less there unless --full is given.

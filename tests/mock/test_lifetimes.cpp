@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two views with three frames in flight each, changing sizes and sets of lights, on the mock
+// Two views with three frames in flight each, changing sizes, lights and occluders, on the mock
 // driver, which knows what a submission uses until it finishes: nothing may be destroyed or written
 // before that, and nothing may pile up.
 #include <algorithm>
@@ -44,7 +44,8 @@ class Storm
 public:
     Storm()
     {
-        auto made = Lighting::create(vulkan_.desc(), {.framesInFlight = slots});
+        auto made =
+            Lighting::create(vulkan_.desc(), {.framesInFlight = slots, .shadows = {.points = 32}});
         EXPECT_TRUE(made) << made.error().message;
         lighting_ = std::move(made.value());
     }
@@ -99,15 +100,49 @@ public:
         ASSERT_TRUE(added) << added.error().message;
     }
 
+    // Adds a mesh and instances of it, changes both, or removes them.
+    void editOccluders()
+    {
+        const uint32_t what = pick(3);
+        if (occluders_.empty()) {
+            positions_.resize(9 * (1 + pick(5000)));
+            for (float& p : positions_)
+                p = float(pick(1000));
+            const uint32_t triangles = uint32_t(positions_.size() / 9);
+            instance_.mesh = lighting_
+                                 .addOccluderMesh({.positions = positions_.data(),
+                                                   .vertexCount = 3 * triangles,
+                                                   .triangleCount = triangles})
+                                 .value();
+        }
+        if (occluders_.empty() || what == 0) {
+            const std::vector<CndOccluderInstance> more(1 + pick(1000), instance_);
+            occluders_.resize(occluders_.size() + more.size());
+            ASSERT_TRUE(lighting_.addOccluders(more, std::span(occluders_).last(more.size())));
+        } else if (what == 1) {
+            instance_.worldFromMesh[3] = pick(100);
+            const std::vector<CndOccluderInstance> moved(occluders_.size() / 2, instance_);
+            ASSERT_TRUE(
+                lighting_.updateOccluders(std::span(occluders_).first(moved.size()), moved));
+            ASSERT_TRUE(lighting_.replaceOccluderPositions(instance_.mesh, positions_.data()));
+        } else {
+            ASSERT_TRUE(lighting_.removeOccluders(occluders_));
+            ASSERT_TRUE(lighting_.removeOccluderMeshes({&instance_.mesh, 1}));
+            occluders_.clear();
+        }
+    }
+
     void randomFrame(FlightingView& v)
     {
-        const uint32_t what = pick(6); // what to change while frames are in flight
+        const uint32_t what = pick(8); // what to change while frames are in flight
         if (what == 0)
             setLights(pick(largestCount));
         else if (what == 1 && !lights_.empty())
             updateLights();
         else if (what == 2 && !lights_.empty())
             exchangeLights();
+        else if (what == 3)
+            editOccluders();
         frame(v, 1 + pick(largestSide), 1 + pick(largestSide));
     }
 
@@ -151,8 +186,10 @@ private:
             wait(v, slot);
         v.maxWidth = std::max(width, v.maxWidth);
         v.maxHeight = std::max(height, v.maxHeight);
-        auto made = lighting_.createView(
-            {.maxWidth = v.maxWidth, .maxHeight = v.maxHeight, .listBudget = 1 << 20});
+        auto made = lighting_.createView({.maxWidth = v.maxWidth,
+                                          .maxHeight = v.maxHeight,
+                                          .listBudget = 1 << 20,
+                                          .shadowBudget = 1 << 20});
         ASSERT_TRUE(made) << made.error().message;
         v.view = std::move(made.value());
     }
@@ -162,11 +199,14 @@ private:
     Lighting lighting_;
     std::vector<CndLight> lights_;
     std::vector<CndLightId> ids_;
+    std::vector<float> positions_; // of the mesh of occluders
+    CndOccluderInstance instance_{.worldFromMesh = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}};
+    std::vector<CndOccluderId> occluders_;
 };
 
 } // namespace
 
-TEST(Lifetimes, StormOfSizesAndLights)
+TEST(Lifetimes, StormOfSizesLightsAndOccluders)
 {
     Storm storm;
     FlightingView views[2];

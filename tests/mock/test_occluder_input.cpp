@@ -1,23 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wrong meshes and instances of occluders are refused with one sentence that names the offending
-// element, and the set stays as it was.
-#include <cmath>
+// Wrong descriptions of shadows, and wrong meshes and instances of occluders, are refused with one
+// sentence that names the offending element, and everything stays as it was.
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include "harness/occluder_host.h"
+#include "candelabra/candelabra.hpp"
 #include "mock/mock_vulkan.h"
+#include "shared/occluder_data.h"
 
 namespace candelabra::test
 {
 namespace
 {
-
-using lighting::OccluderId;
-using lighting::OccluderInstance;
-using lighting::OccluderMesh;
-using lighting::OccluderMeshId;
 
 constexpr float notANumber = std::numeric_limits<float>::quiet_NaN();
 constexpr float oneTriangle[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
@@ -25,201 +20,308 @@ constexpr float oneTriangle[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 class OccluderInput : public ::testing::Test
 {
 protected:
-    void SetUp() override
+    void SetUp() override { create({.points = 64}); }
+    void TearDown() override
     {
-        host_.set.addMeshes({&mesh_, 1}, &meshId_);
-        instance_.mesh = meshId_;
+        for (const std::string& what : vulkan_.misuse)
+            ADD_FAILURE() << what;
+    }
+    // Creates a module, a view, and one instance of one mesh.
+    void create(const CndShadowDesc& shadows)
+    {
+        view_ = {};
+        lighting_ = {};
+        auto made = Lighting::create(vulkan_.desc(), {.framesInFlight = 1, .shadows = shadows});
+        ASSERT_TRUE(made) << made.error().message;
+        lighting_ = std::move(made.value());
+        auto view = lighting_.createView(
+            {.maxWidth = 64, .maxHeight = 48, .listBudget = 1 << 16, .shadowBudget = 1 << 16});
+        ASSERT_TRUE(view) << view.error().message;
+        view_ = std::move(view.value());
+        auto mesh = lighting_.addOccluderMesh(mesh_);
+        ASSERT_TRUE(mesh) << mesh.error().message;
+        instance_ = {.mesh = mesh.value()};
         for (int i = 0; i < 3; ++i)
             instance_.worldFromMesh[5 * i] = 1;
-        host_.set.add({&instance_, 1}, &id_);
+        auto occluder = lighting_.addOccluder(instance_);
+        ASSERT_TRUE(occluder) << occluder.error().message;
+        id_ = occluder.value();
     }
 
-    // Expects that a call is refused with this sentence and changes nothing.
-    template <typename Call>
-    void refused(const std::string& sentence, Call&& call,
+    static void expectSentence(const CndError& error, const std::string& sentence,
+                               CndResult code = CND_ERROR_INVALID_ARGUMENT)
+    {
+        EXPECT_EQ(error.message, sentence);
+        EXPECT_EQ(error.code, code);
+    }
+    void record()
+    {
+        CndLightingFrame frame{.width = 64, .height = 48, .camera = MockVulkan::camera()};
+        frame.normalRoughness = frame.albedo = frame.specular = frame.depth = frame.radiance =
+            MockVulkan::imageView();
+        const auto recorded = view_.record(MockVulkan::commandBuffer(), frame);
+        ASSERT_TRUE(recorded) << recorded.error().message;
+        vulkan_.finish(vulkan_.submit());
+    }
+    // Expects that the one instance is still the only one, and that a frame can be recorded.
+    void expectUnchanged()
+    {
+        expectSentence(lighting_.removeOccluderMeshes({&instance_.mesh, 1}).error(),
+                       "cndRemoveOccluderMeshes: ids[0] is a mesh that 1 occluders use");
+        record();
+    }
+    void refused(const Result<void>& result, const std::string& sentence,
                  CndResult code = CND_ERROR_INVALID_ARGUMENT)
     {
-        const uint64_t number = host_.set.number();
-        const size_t triangles = host_.set.meshes().allTriangles().size();
-        try {
-            call();
-            ADD_FAILURE() << "accepted: " << sentence;
-        } catch (const gpu::Failure& failure) {
-            EXPECT_EQ(failure.message, sentence);
-            EXPECT_EQ(failure.code, code);
-        }
-        EXPECT_EQ(host_.set.number(), number);
-        EXPECT_EQ(host_.set.meshes().allTriangles().size(), triangles);
-        EXPECT_EQ(host_.set.instances().count(), 1u);
+        expectSentence(result.error(), sentence, code);
+        expectUnchanged();
     }
     // Adds a correct mesh and this one, which is refused.
-    void refusedMesh(const std::string& why, const OccluderMesh& mesh,
-                     CndResult code = CND_ERROR_INVALID_ARGUMENT)
+    void refusedMesh(const CndOccluderMesh& mesh, const std::string& why)
     {
-        const OccluderMesh meshes[] = {mesh_, mesh};
-        OccluderMeshId ids[2];
-        refused(
-            "cndAddOccluderMeshes: " + why, [&] { host_.set.addMeshes(meshes, ids); }, code);
+        const CndOccluderMesh meshes[] = {mesh_, mesh};
+        CndOccluderMeshId ids[2] = {7, 7};
+        refused(lighting_.addOccluderMeshes(meshes, ids), "cndAddOccluderMeshes: mesh 1: " + why);
+        EXPECT_TRUE(ids[0] == 7 && ids[1] == 7);
     }
-    void refusedInstance(const std::string& why, const OccluderInstance& instance)
+    void refusedInstance(const CndOccluderInstance& instance, const std::string& why)
     {
-        const OccluderInstance instances[] = {instance_, instance};
-        OccluderId ids[2];
-        refused("cndAddOccluders: occluder 1: " + why, [&] { host_.set.add(instances, ids); });
-        refused("cndUpdateOccluders: occluder 0: " + why, [&] {
-            host_.set.update({&id_, 1}, {&instance, 1});
-        });
+        const CndOccluderInstance instances[] = {instance_, instance};
+        CndOccluderId ids[2] = {7, 7};
+        refused(lighting_.addOccluders(instances, ids), "cndAddOccluders: occluder 1: " + why);
+        EXPECT_TRUE(ids[0] == 7 && ids[1] == 7);
+        refused(lighting_.updateOccluders({&id_, 1}, {&instance, 1}),
+                "cndUpdateOccluders: occluder 0: " + why);
     }
 
     MockVulkan vulkan_;
-    gpu::Device device_{vulkan_.desc(), gpu::lightingModule};
-    OccluderHost host_{device_};
-    const OccluderMesh mesh_{.positions = oneTriangle, .vertexCount = 3, .triangleCount = 1};
-    OccluderInstance instance_{};
-    OccluderMeshId meshId_ = 0;
-    OccluderId id_ = 0;
+    Lighting lighting_;
+    LightingView view_;
+    const CndOccluderMesh mesh_{.positions = oneTriangle, .vertexCount = 3, .triangleCount = 1};
+    CndOccluderInstance instance_{};
+    CndOccluderId id_ = 0;
 };
 
 } // namespace
 
 TEST_F(OccluderInput, MeshesAreChecked)
 {
-    const std::string name = "mesh 1: ";
-    OccluderMesh mesh = mesh_;
+    CndOccluderMesh mesh = mesh_;
     mesh.positions = nullptr;
-    refusedMesh(name + "positions is null", mesh);
+    refusedMesh(mesh, "positions is null");
     mesh = mesh_;
     for (const uint32_t stride : {8u, 13u}) {
         mesh.stride = stride;
-        refusedMesh(name + "stride is " + std::to_string(stride) +
-                        ", must be 0 or a multiple of 4 that is at least 12",
-                    mesh);
+        refusedMesh(mesh, "stride is " + std::to_string(stride) +
+                              ", must be 0 or a multiple of 4 that is at least 12");
     }
     mesh = mesh_;
     mesh.triangleCount = 0;
-    refusedMesh(name + "triangleCount is 0, must be 1..2^28", mesh);
+    refusedMesh(mesh, "triangleCount is 0, must be 1..2^28");
     mesh.triangleCount = (1u << 28) + 1;
-    refusedMesh(name + "triangleCount is 268435457, must be 1..2^28", mesh);
+    refusedMesh(mesh, "triangleCount is 268435457, must be 1..2^28");
     mesh.triangleCount = 2;
-    refusedMesh(name + "vertexCount is 3, must be 3 triangleCount = 6 without indices", mesh);
+    refusedMesh(mesh, "vertexCount is 3, must be 3 triangleCount = 6 without indices");
     const uint32_t indices[] = {0, 1, 3};
     mesh.triangleCount = 1;
     mesh.indices = indices;
-    refusedMesh(name + "indices[2] is 3, must be below vertexCount, 3", mesh);
+    refusedMesh(mesh, "indices[2] is 3, must be below vertexCount, 3");
     const float broken[] = {0, 0, 0, 1, notANumber, 0, 0, 1, 0},
                 far[] = {0, 0, 0, 1, 0, 0, 0, 1, 2e15f};
     mesh = mesh_;
     mesh.positions = broken;
-    refusedMesh(name + "positions[1][1] is nan, must be finite and within 1e15", mesh);
+    refusedMesh(mesh, "positions[1][1] is nan, must be finite and within 1e15");
     mesh.positions = far;
-    refusedMesh(name + "positions[2][2] is 1999999973982208.000000, must be finite and within 1e15",
-                mesh);
-    refused("cndReplaceOccluderPositions: positions[1][1] is nan, must be finite and within 1e15",
-            [&] { host_.set.replacePositions(meshId_, broken, 0); });
-    refused("cndReplaceOccluderPositions: no occluder mesh has the id 7 (generation 0)",
-            [&] { host_.set.replacePositions(7, oneTriangle, 0); });
-    refused("cndReplaceOccluderPositions: stride is 4, must be 0 or a multiple of 4 that is at "
-            "least 12",
-            [&] { host_.set.replacePositions(meshId_, oneTriangle, 4); });
+    refusedMesh(mesh, "positions[2][2] is 1999999973982208.000000, must be finite and within 1e15");
+    const std::string replace = "cndReplaceOccluderPositions: ";
+    refused(lighting_.replaceOccluderPositions(instance_.mesh, broken),
+            replace + "positions[1][1] is nan, must be finite and within 1e15");
+    refused(lighting_.replaceOccluderPositions(7, oneTriangle),
+            replace + "no occluder mesh has the id 7 (generation 0)");
+    refused(lighting_.replaceOccluderPositions(instance_.mesh, oneTriangle, 4),
+            replace + "stride is 4, must be 0 or a multiple of 4 that is at least 12");
 }
 
 TEST_F(OccluderInput, InstancesAreChecked)
 {
-    const float infinity = std::numeric_limits<float>::infinity();
-    OccluderInstance instance = instance_;
+    CndOccluderInstance instance = instance_;
     instance.mesh = 5;
-    refusedInstance("no occluder mesh has the id 5 (generation 0)", instance);
+    refusedInstance(instance, "no occluder mesh has the id 5 (generation 0)");
     instance = instance_;
     instance.surfaceError = -1;
-    refusedInstance("surfaceError is -1.000000, must be finite and >= 0", instance);
-    instance.surfaceError = infinity;
-    refusedInstance("surfaceError is inf, must be finite and >= 0", instance);
+    refusedInstance(instance, "surfaceError is -1.000000, must be finite and >= 0");
+    instance.surfaceError = std::numeric_limits<float>::infinity();
+    refusedInstance(instance, "surfaceError is inf, must be finite and >= 0");
     instance = instance_;
     instance.occluderLayer = 6;
-    refusedInstance("occluderLayer is 6, must be below 6", instance);
+    refusedInstance(instance, "occluderLayer is 6, must be below 6");
     instance = instance_;
     instance.layers = 1u << CND_LAYER_COUNT;
-    refusedInstance("layers has bits beyond CND_LAYER_COUNT", instance);
+    refusedInstance(instance, "layers has bits beyond CND_LAYER_COUNT");
     instance = instance_;
     instance.worldFromMesh[3] = double(notANumber);
-    refusedInstance("worldFromMesh[3] is nan, must be finite and within 1e15", instance);
+    refusedInstance(instance, "worldFromMesh[3] is nan, must be finite and within 1e15");
     instance = instance_;
     instance.worldFromMesh[5] = 0;
-    refusedInstance("column 1 of worldFromMesh has a length beyond 1e-15..1e15", instance);
+    refusedInstance(instance, "column 1 of worldFromMesh has a length beyond 1e-15..1e15");
     instance.worldFromMesh[4] = 1;
     instance.worldFromMesh[0] = instance.worldFromMesh[1] = 1;
     instance.worldFromMesh[5] = 1.0001;
-    refusedInstance("worldFromMesh is singular: the determinant of its columns, each divided by "
-                    "its length, is 0.000050, must be beyond 1e-4 or -1e-4",
-                    instance);
-}
-
-// Columns of any length, at right angles or nearly so, mirrored or not.
-TEST_F(OccluderInput, TransformsMayStretchAndMirror)
-{
-    OccluderInstance instance = instance_;
-    instance.worldFromMesh[0] = 1e-15;
-    instance.worldFromMesh[5] = 1e15;
-    instance.worldFromMesh[6] = 0.3;
-    instance.worldFromMesh[10] = -1;
-    instance.worldFromMesh[3] = 1e15;
-    host_.set.update({&id_, 1}, {&instance, 1});
-    host_.record(MockVulkan::commandBuffer(), {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
-    vulkan_.finish(vulkan_.submit());
-    EXPECT_TRUE(
-        std::isfinite(lighting::halfSurface(lighting::boxOf(host_.set.instances().nodes()[0]))));
+    refusedInstance(instance,
+                    "worldFromMesh is singular: the determinant of its columns, each divided by "
+                    "its length, is 0.000050, must be beyond 1e-4 or -1e-4");
 }
 
 TEST_F(OccluderInput, IdsAreChecked)
 {
-    const OccluderId twice[] = {id_, id_}, unknown[] = {id_, 3};
-    const OccluderInstance instances[] = {instance_, instance_};
+    const CndOccluderId twice[] = {id_, id_}, unknown[] = {id_, 3};
+    const CndOccluderInstance instances[] = {instance_, instance_};
     const std::string given = "the id 0 (generation 1) is given twice";
-    refused("cndRemoveOccluders: " + given, [&] { host_.set.remove(twice); });
-    refused("cndUpdateOccluders: " + given, [&] { host_.set.update(twice, instances); });
-    refused("cndRemoveOccluders: no occluder has the id 3 (generation 0)",
-            [&] { host_.set.remove(unknown); });
-    const OccluderMeshId twoMeshes[] = {meshId_, meshId_};
-    refused("cndRemoveOccluderMeshes: " + given, [&] { host_.set.removeMeshes(twoMeshes); });
-    refused("cndRemoveOccluderMeshes: ids[0] is a mesh that 1 occluders use", [&] {
-        host_.set.removeMeshes({&meshId_, 1});
-    });
-    host_.set.remove({&id_, 1});
-    host_.set.removeMeshes({&meshId_, 1});
-    OccluderMeshId other = 0;
-    host_.set.addMeshes({&mesh_, 1}, &other);
-    EXPECT_NE(other, meshId_) << "ids are never reused";
-    EXPECT_THROW(host_.set.removeMeshes({&meshId_, 1}), gpu::Failure);
+    refused(lighting_.removeOccluders(twice), "cndRemoveOccluders: " + given);
+    refused(lighting_.updateOccluders(twice, instances), "cndUpdateOccluders: " + given);
+    refused(lighting_.removeOccluders(unknown),
+            "cndRemoveOccluders: no occluder has the id 3 (generation 0)");
+    const CndOccluderMeshId twoMeshes[] = {instance_.mesh, instance_.mesh};
+    refused(lighting_.removeOccluderMeshes(twoMeshes), "cndRemoveOccluderMeshes: " + given);
+    ASSERT_TRUE(lighting_.removeOccluders({&id_, 1}));
+    ASSERT_TRUE(lighting_.removeOccluderMeshes({&instance_.mesh, 1}));
+    EXPECT_NE(lighting_.addOccluderMesh(mesh_).value(), instance_.mesh) << "ids are never reused";
+    EXPECT_FALSE(lighting_.removeOccluderMeshes({&instance_.mesh, 1}));
+}
+
+TEST_F(OccluderInput, NoPointerIsNull)
+{
+    const CndLighting none = nullptr, some = lighting_.get();
+    CndError error{};
+    const auto refusedNull = [&](CndResult result, const char* call) {
+        EXPECT_EQ(result, CND_ERROR_INVALID_ARGUMENT);
+        refused(error, std::string(call) + ": an argument is null");
+    };
+    uint64_t id = 7;
+    for (const CndLighting l : {none, some}) {
+        const CndOccluderMesh* const meshes = l ? nullptr : &mesh_;
+        const CndOccluderInstance* const instances = l ? nullptr : &instance_;
+        uint64_t* const ids = l ? nullptr : &id;
+        refusedNull(cndAddOccluderMeshes(l, 1, meshes, &id, &error), "cndAddOccluderMeshes");
+        refusedNull(cndAddOccluderMeshes(l, 1, &mesh_, ids, &error), "cndAddOccluderMeshes");
+        refusedNull(
+            cndReplaceOccluderPositions(l, instance_.mesh, l ? nullptr : oneTriangle, 0, &error),
+            "cndReplaceOccluderPositions");
+        refusedNull(cndRemoveOccluderMeshes(l, 1, ids, &error), "cndRemoveOccluderMeshes");
+        refusedNull(cndAddOccluders(l, 1, instances, &id, &error), "cndAddOccluders");
+        refusedNull(cndAddOccluders(l, 1, &instance_, ids, &error), "cndAddOccluders");
+        refusedNull(cndUpdateOccluders(l, 1, &id_, instances, &error), "cndUpdateOccluders");
+        refusedNull(cndUpdateOccluders(l, 1, ids, &instance_, &error), "cndUpdateOccluders");
+        refusedNull(cndRemoveOccluders(l, 1, ids, &error), "cndRemoveOccluders");
+    }
+    EXPECT_EQ(id, 7u);
+    // Nothing is read if there is nothing to do.
+    EXPECT_EQ(cndAddOccluderMeshes(some, 0, nullptr, nullptr, nullptr), CND_SUCCESS);
+    EXPECT_EQ(cndRemoveOccluderMeshes(some, 0, nullptr, nullptr), CND_SUCCESS);
+    EXPECT_EQ(cndAddOccluders(some, 0, nullptr, nullptr, nullptr), CND_SUCCESS);
+    EXPECT_EQ(cndUpdateOccluders(some, 0, nullptr, nullptr, nullptr), CND_SUCCESS);
+    EXPECT_EQ(cndRemoveOccluders(some, 0, nullptr, nullptr), CND_SUCCESS);
+    expectUnchanged();
+}
+
+TEST_F(OccluderInput, AModuleWithoutShadowsHasNone)
+{
+    Lighting lighting = std::move(Lighting::create(vulkan_.desc(), {.framesInFlight = 1}).value());
+    const std::string why = ": CndLightingDesc::shadows.points was 0";
+    uint64_t id = 0;
+    expectSentence(lighting.addOccluderMesh(mesh_).error(), "cndAddOccluderMeshes" + why);
+    expectSentence(lighting.replaceOccluderPositions(id, oneTriangle).error(),
+                   "cndReplaceOccluderPositions" + why);
+    expectSentence(lighting.removeOccluderMeshes({&id, 1}).error(),
+                   "cndRemoveOccluderMeshes" + why);
+    expectSentence(lighting.addOccluder(instance_).error(), "cndAddOccluders" + why);
+    expectSentence(lighting.updateOccluders({&id, 1}, {&instance_, 1}).error(),
+                   "cndUpdateOccluders" + why);
+    expectSentence(lighting.removeOccluders({&id, 1}).error(), "cndRemoveOccluders" + why);
 }
 
 TEST_F(OccluderInput, TheDeviceLimitsTheNumbers)
 {
-    device_.limits.maxStorageBufferRange = 10 * sizeof(gpu::OccluderTriangle);
-    const std::vector<float> positions(9 * 11);
-    const OccluderMesh mesh{.positions = positions.data(), .vertexCount = 33, .triangleCount = 11};
-    OccluderMeshId id = 0;
-    refused(
-        "cndAddOccluderMeshes: the meshes need a buffer of 396 bytes, more than the device's "
-        "maxStorageBufferRange, 360",
-        [&] {
-            host_.set.addMeshes({&mesh, 1}, &id);
-        },
-        CND_ERROR_UNSUPPORTED);
-    const OccluderMesh ten{.positions = positions.data(), .vertexCount = 30, .triangleCount = 10};
-    refused(
-        "cndAddOccluderMeshes: the meshes need a buffer of 396 bytes, more than the device's "
-        "maxStorageBufferRange, 360",
-        [&] {
-            host_.set.addMeshes({&ten, 1}, &id);
-        },
-        CND_ERROR_UNSUPPORTED);
-    const std::vector<OccluderInstance> instances(3, instance_);
-    OccluderId ids[3];
-    refused(
-        "cndAddOccluders: 4 occluders are more than the device can take, 3",
-        [&] { host_.set.add(instances, ids); }, CND_ERROR_UNSUPPORTED);
-    EXPECT_THROW(OccluderHost(device_, 11), gpu::Failure);
-    EXPECT_THROW(OccluderHost(device_, 0, 4), gpu::Failure);
+    vulkan_.limits.maxStorageBufferRange = 1 << 20;
+    create({.points = 32});
+    constexpr uint32_t mostTriangles = (1 << 20) / sizeof(gpu::OccluderTriangle);
+    constexpr uint32_t most = (1 << 20) / sizeof(gpu::OccluderInstance);
+    const std::vector<float> positions(9 * (mostTriangles + 1));
+    CndOccluderMesh mesh{.positions = positions.data()};
+    // Alone, and beside the triangle that is there.
+    for (mesh.triangleCount = mostTriangles + 1; mesh.triangleCount >= mostTriangles;
+         --mesh.triangleCount) {
+        mesh.vertexCount = 3 * mesh.triangleCount;
+        CndOccluderMeshId id = 0;
+        refused(lighting_.addOccluderMeshes({&mesh, 1}, {&id, 1}),
+                "cndAddOccluderMeshes: the meshes need a buffer of 1048608 bytes, more than the "
+                "device's maxStorageBufferRange, 1048576",
+                CND_ERROR_UNSUPPORTED);
+    }
+    const std::vector<CndOccluderInstance> instances(most, instance_);
+    std::vector<CndOccluderId> ids(most);
+    refused(lighting_.addOccluders(instances, ids),
+            "cndAddOccluders: " + std::to_string(most + 1) +
+                " occluders are more than the device can take, " + std::to_string(most),
+            CND_ERROR_UNSUPPORTED);
+    // Those that have been removed do not count.
+    ids.pop_back();
+    ASSERT_TRUE(lighting_.addOccluders(std::span(instances).first(most - 1), ids));
+    const std::span<CndOccluderId> some = std::span(ids).first(10);
+    for (int i = 0; i < 3; ++i) {
+        record();
+        ASSERT_TRUE(lighting_.removeOccluders(some));
+        const auto added = lighting_.addOccluders(std::span(instances).first(10), some);
+        ASSERT_TRUE(added) << added.error().message;
+    }
+}
+
+TEST_F(OccluderInput, CreationIsChecked)
+{
+    const auto refusedModule = [&](const CndLightingDesc& desc, const std::string& sentence,
+                                   CndResult code = CND_ERROR_INVALID_ARGUMENT) {
+        expectSentence(Lighting::create(vulkan_.desc(), desc).error(), sentence, code);
+        expectSentence(Lighting::plan(vulkan_.desc(), desc).error(), sentence, code);
+    };
+    CndLightingDesc desc{.framesInFlight = 1, .shadows = {.points = 16}};
+    refusedModule(desc, "CndShadowDesc: points must be 0, 32 or 64, is 16");
+    desc.shadows.points = 32;
+    const auto refusedDepth = [&](VkFormat format, const char* name, CndDepthKind kind) {
+        desc.gbuffer = {.depthFormat = format, .depthKind = kind};
+        refusedModule(desc, std::string("CndShadowDesc: shadows need depth of at least 24 bits, "
+                                        "CndGBufferDesc::depthFormat is ") +
+                                name);
+    };
+    refusedDepth(VK_FORMAT_D16_UNORM, "VK_FORMAT_D16_UNORM", CND_DEPTH_PROJECTED);
+    refusedDepth(VK_FORMAT_D16_UNORM_S8_UINT, "VK_FORMAT_D16_UNORM_S8_UINT", CND_DEPTH_PROJECTED);
+    refusedDepth(VK_FORMAT_R16_SFLOAT, "VK_FORMAT_R16_SFLOAT", CND_DEPTH_LINEAR);
+    refusedDepth(VK_FORMAT_R16G16B16A16_SFLOAT, "VK_FORMAT_R16G16B16A16_SFLOAT",
+                 CND_DEPTH_POSITION_WORLD);
+    desc.shadows.points = 0; // without shadows all of them are welcome
+    EXPECT_TRUE(Lighting::create(vulkan_.desc(), desc));
+    desc.gbuffer = {.depthFormat = VK_FORMAT_D24_UNORM_S8_UINT};
+    desc.shadows.points = 32;
+    EXPECT_TRUE(Lighting::create(vulkan_.desc(), desc));
+    desc.shadows.triangleCapacity = 4000000;
+    refusedModule(desc, "CndShadowDesc: triangleCapacity is 4000000, the device can take 3728270",
+                  CND_ERROR_UNSUPPORTED);
+    desc.shadows = {.points = 32, .instanceCapacity = 2000000};
+    refusedModule(desc, "CndShadowDesc: instanceCapacity is 2000000, the device can take 1198372",
+                  CND_ERROR_UNSUPPORTED);
+}
+
+TEST_F(OccluderInput, ViewsAreChecked)
+{
+    const auto refusedView = [&](const CndLightingViewDesc& desc, const std::string& sentence) {
+        expectSentence(lighting_.createView(desc).error(), sentence, CND_ERROR_UNSUPPORTED);
+        expectUnchanged();
+    };
+    refusedView({.maxWidth = 64, .maxHeight = 64, .shadowBudget = (1u << 27) + 1},
+                "CndLightingViewDesc: shadowBudget 134217729 exceeds the device's "
+                "maxStorageBufferRange 134217728");
+    refusedView({.maxWidth = 8192, .maxHeight = 8192},
+                "CndLightingViewDesc: shadows of maxWidth x maxHeight pixels need a buffer of "
+                "268435456 bytes, more than the device's maxStorageBufferRange, 134217728");
 }
 
 } // namespace candelabra::test

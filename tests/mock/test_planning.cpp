@@ -28,7 +28,12 @@ const CndLightingDesc lightingDescs[] = {
      .gbuffer = {.roughness = CND_CHANNEL_NORMAL_A},
      .forwardStages = VK_SHADER_STAGE_FRAGMENT_BIT,
      .lightCapacity = 10},
-    {.framesInFlight = 1, .lightCapacity = 100, .lightTypes = sphere, .influenceByError = VK_TRUE}};
+    {.framesInFlight = 1, .lightCapacity = 100, .lightTypes = sphere, .influenceByError = VK_TRUE},
+    {.framesInFlight = 2, .shadows = {.points = 32}},
+    {.framesInFlight = 1,
+     .forwardStages = VK_SHADER_STAGE_FRAGMENT_BIT,
+     .lightTypes = sphere | 1u << CND_LIGHT_POLYGON,
+     .shadows = {.points = 64, .triangleCapacity = 5000, .instanceCapacity = 300}}};
 
 void expectSame(const CndMemoryUsage& planned, const CndMemoryUsage& held)
 {
@@ -114,7 +119,7 @@ TEST(Planning, OfLightingIsWhatCreationTakes)
         // A set within the prepared capacity takes nothing more.
         const CndLight light{.type = CND_LIGHT_SPHERE, .radius = 0.1f, .influenceRadius = 5};
         if (desc.lightTypes) {
-            const std::vector<CndLight> lights(desc.lightCapacity, light);
+            const std::vector<CndLight> lights(std::max(desc.lightCapacity, 1u), light);
             ASSERT_TRUE(lighting.value().setLights(lights, {0, 0, 0}));
             expectSame(planned.value(), lighting.value().memory().value());
         }
@@ -125,6 +130,36 @@ TEST(Planning, OfLightingIsWhatCreationTakes)
         EXPECT_GT(held.bytes[CND_MEMORY_SCRATCH], planned.value().bytes[CND_MEMORY_SCRATCH]);
         expectHeld(vulkan, held);
     }
+}
+
+// Occluders within the prepared capacity take nothing more, except for staging buffers.
+TEST(Planning, RoomForOccludersIsEnough)
+{
+    MockVulkan vulkan;
+    constexpr uint32_t boxes = 300;
+    Lighting lighting = std::move(
+        Lighting::create(
+            vulkan.desc(),
+            {.framesInFlight = 1,
+             .shadows = {.points = 64, .triangleCapacity = 1000, .instanceCapacity = boxes}})
+            .value());
+    LightingView view = std::move(lighting.createView({.maxWidth = 64, .maxHeight = 48}).value());
+    const CndMemoryUsage before = lighting.memory().value();
+    std::vector<float> positions(9 * 1000);
+    for (size_t i = 0; i < positions.size(); ++i)
+        positions[i] = float(i * 7919 % 1000);
+    const CndOccluderMesh mesh{
+        .positions = positions.data(), .vertexCount = 3000, .triangleCount = 1000};
+    const CndOccluderInstance instance{.mesh = lighting.addOccluderMesh(mesh).value(),
+                                       .worldFromMesh = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}};
+    std::vector<CndOccluderId> ids(boxes);
+    ASSERT_TRUE(lighting.addOccluders(std::vector(boxes, instance), ids));
+    CndMemoryUsage after = lighting.memory().value();
+    EXPECT_EQ(after.bytes[CND_MEMORY_BUFFER], before.bytes[CND_MEMORY_BUFFER]);
+    EXPECT_EQ(after.bytes[CND_MEMORY_SCRATCH], before.bytes[CND_MEMORY_SCRATCH]);
+    ASSERT_TRUE(lighting.addOccluder(instance));
+    after = lighting.memory().value();
+    EXPECT_GT(after.bytes[CND_MEMORY_SCRATCH], before.bytes[CND_MEMORY_SCRATCH]);
 }
 
 TEST(Planning, OfExposureAndEnvironmentIsWhatCreationTakes)

@@ -40,10 +40,10 @@ FOLDERS = [
                          PUBLIC, "candelabra_shaders.h"]),
     ("engine/shading", ["engine/clusters", "engine/lights", "engine/surfaces", "engine/tables", "engine/gpu",
                         "shaders/shared", PUBLIC, "candelabra_shaders.h"]),
-    ("engine/view", ["engine/shading", "engine/clusters", "engine/lights", "engine/surfaces", "engine/tables",
-                     "engine/gpu", "shaders/shared", PUBLIC, "candelabra_shaders.h"]),
-    ("engine/lighting", ["engine/view", "engine/shading", "engine/clusters", "engine/lights", "engine/surfaces",
-                         "engine/tables", "engine/gpu", "shaders/shared", PUBLIC, "candelabra_shaders.h"]),
+    ("engine/view", ["engine/shading", "engine/occluders", "engine/clusters", "engine/lights", "engine/surfaces",
+                     "engine/tables", "engine/gpu", "shaders/shared", PUBLIC, "candelabra_shaders.h"]),
+    ("engine/lighting", ["engine/view", "engine/shading", "engine/occluders", "engine/clusters", "engine/lights",
+                         "engine/surfaces", "engine/tables", "engine/gpu", "shaders/shared", PUBLIC, "candelabra_shaders.h"]),
     # Other modules, which lighting does not use.
     ("engine/environment", ["engine/surfaces", "engine/tables", "engine/gpu", "shaders/shared", PUBLIC,
                             "candelabra_shaders.h"]),
@@ -77,7 +77,7 @@ FOLDERS = [
                        "double_visibility.h"]),
     # The folders that measure compare with the double-precision truth. Some of them may use internals of
     # the engine, so their lists name more of the engine than PUBLIC.
-    ("tools/candelabra/measure/frame", ["tools/candelabra/render", "tools/candelabra/scene",
+    ("tools/candelabra/measure/frame", ["tools/candelabra/render", "tools/candelabra/truth", "tools/candelabra/scene",
                                         "tools/candelabra/io", PUBLIC, "engine/reference",
                                         "shaders/shared/gbuffer_data.h"]),
     ("tools/candelabra/measure/profile", ["tools/candelabra/measure/frame", "tools/candelabra/render",
@@ -102,6 +102,9 @@ FOLDERS = [
                                             "tools/candelabra/scene", "tools/candelabra/io", PUBLIC, "engine/gpu",
                                             "engine/gbuffer", "shaders/shared/lighting_data.h",
                                             "shaders/shared/raster.h"]),
+    ("tools/candelabra/measure/visibility", ["tools/candelabra/measure/frame", "tools/candelabra/measure/profile",
+                                             "tools/candelabra/render", "tools/candelabra/generate",
+                                             "tools/candelabra/io", PUBLIC, "engine/reference"]),
     ("tools/candelabra/measure/host", ["tools/candelabra/render", "tools/candelabra/load", "tools/candelabra/scene",
                                        "tools/candelabra/io", PUBLIC, "shaders/shared/lighting_data.h"]),
     ("tools/candelabra/measure/culling", ["tools/candelabra/measure/frame", "tools/candelabra/measure/kernels",
@@ -138,7 +141,8 @@ FOLDERS = [
     ("samples/embed_forward", ["samples/common", "shaders/lib/forward.glsl", "ball_frag.h", "ball_vert.h"]),
     ("samples/embed_minimal", ["samples/common"]),
     ("samples/embed_render_pass", ["samples/common", "wall_frag.h", "wall_vert.h"]),
-    ("samples/embed_shadows", ["samples/common", "bar_vert.h"]),
+    ("samples/embed_shadow_map", ["samples/common", "bar_vert.h"]),
+    ("samples/embed_shadows", ["samples/common", "box_frag.h", "box_vert.h"]),
     ("samples/embed_window", ["samples/common", "boxes.frag.inc", "boxes.vert.inc"]),
 
     # Tests may include everything, and nothing includes tests.

@@ -64,6 +64,16 @@ TEST(Compiler, MakesTheKernelsThatTheFunctionsBelongIn)
                                      "shade_brute:SPHERE", "count_pairs:SPHERE", "tile_clusters",
                                      "split_tiles", "cpu/tile_clusters", "cpu/split_tiles",
                                      "surface_overlay", "shade_environment"}));
+    EXPECT_EQ(kernelsOf({.functions = CND_HOST_VISIBILITY_BIT | CND_HOST_READ_SURFACE_BIT,
+                         .source = both.c_str(),
+                         .lightTypes = 1u << CND_LIGHT_DISTANT_SPHERE,
+                         .specularMethods = 1u << CND_SPECULAR_KARIS,
+                         .shadows = VK_TRUE}),
+              (std::set<std::string>{"shade_tiles_shadows:SPHERE", "shade_unlisted_shadows:SPHERE",
+                                     "shade_brute_shadows:SPHERE", "count_pairs:SPHERE",
+                                     "pair_visibility", "tile_clusters", "split_tiles",
+                                     "cpu/tile_clusters", "cpu/split_tiles", "surface_overlay",
+                                     "shade_environment"}));
 }
 
 TEST(Compiler, ErrorsNameTheLineOfTheSource)

@@ -56,6 +56,27 @@ TEST(CppFace, PowerOfALight)
     EXPECT_STRNE(none.error().message, "");
 }
 
+TEST(CppFace, EveryElementHasAnId)
+{
+    Lighting none;
+    uint64_t id = 0;
+    const CndLight light{};
+    const CndOccluderMesh mesh{};
+    const CndOccluderInstance instance{};
+    EXPECT_STREQ(none.addLights({&light, 1}, {}).error().message,
+                 "Lighting::addLights: ids must have as many elements as lights");
+    EXPECT_STREQ(none.updateLights({&id, 1}, {}).error().message,
+                 "Lighting::updateLights: ids must have as many elements as lights");
+    EXPECT_STREQ(none.addOccluderMeshes({&mesh, 1}, {}).error().message,
+                 "Lighting::addOccluderMeshes: ids must have as many elements as meshes");
+    EXPECT_STREQ(none.addOccluders({&instance, 1}, {}).error().message,
+                 "Lighting::addOccluders: ids must have as many elements as instances");
+    EXPECT_STREQ(none.updateOccluders({&id, 1}, {}).error().message,
+                 "Lighting::updateOccluders: ids must have as many elements as instances");
+    EXPECT_STREQ(none.addOccluder(instance).error().message,
+                 "cndAddOccluders: an argument is null");
+}
+
 TEST(CppFace, LargestLightCount)
 {
     const VkPhysicalDeviceLimits limits{.maxStorageBufferRange = 1u << 27,

@@ -34,6 +34,12 @@ TEST(GlmFace, MatricesKeepTheirColumns)
     assign(frame.worldFromEnvironment, glm::mat3(1, 2, 3, 4, 5, 6, 7, 8, 9));
     EXPECT_EQ(frame.worldFromEnvironment[1], 2);
     EXPECT_EQ(frame.worldFromEnvironment[8], 9);
+    CndOccluderInstance instance{};
+    assign(instance.worldFromMesh,
+           view * glm::rotate(glm::dmat4(1), glm::radians(90.0), {0, 0, 1}));
+    EXPECT_EQ(instance.worldFromMesh[3], 4);
+    EXPECT_EQ(instance.worldFromMesh[11], 6);
+    EXPECT_EQ(instance.worldFromMesh[4], 1) << "x of the mesh is y of the world";
 }
 
 } // namespace candelabra::test

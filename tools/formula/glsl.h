@@ -51,6 +51,10 @@ inline double uintBitsToFloat(uint x)
 {
     return double(std::bit_cast<float>(x));
 }
+inline int bitCount(uint x)
+{
+    return std::popcount(x);
+}
 inline uint findLSB(uint x)
 {
     return uint(std::countr_zero(x));

@@ -86,9 +86,10 @@ uint64_t hiddenPoints(const LightFacet& facet, const OccludingMesh& mesh, const 
     const mat3 localFromWorld = glm::inverse(mesh.worldFromLocal);
     const vec3 p = localFromWorld * receiver.position;
     uvec2 lit = f.members;
+    unsigned turns = 0;
     for (const Triangle& t : mesh.triangles)
         lit = lit & ~shaders.trianglePoints(facet.count, f.shape, f.front, local, localFromWorld,
-                                            t[0] - p, t[1] - p, t[2] - p, ownDistance, lit);
+                                            t[0] - p, t[1] - p, t[2] - p, ownDistance, lit, turns);
     return facet.members & ~Visibility::bitsOf(lit);
 }
 
@@ -108,9 +109,9 @@ BoxResult testBox(const LightFacet& facet, const OccludingMesh& mesh, const Rece
     low = low - p - slack;
     high = high - p + slack;
     const auto local = shaders.inSpaceOf(shaders.lightCoordinates(f), mesh.worldFromLocal);
-    return {shaders.coneTouches(shaders.facetCone(f.shape, f.front, local), low, high),
-            facet.members &
-                Visibility::bitsOf(shaders.boxPoints(facet.count, f.shape, local, low, high))};
+    return {shaders.coneTouches(shaders.facetCone(f, localFromView), low, high),
+            facet.members & Visibility::bitsOf(shaders.boxPoints(facet.count, f.shape, f.front,
+                                                                 local, low, high))};
 }
 
 glm::dvec2 visibleShares(const LightFacet& facet, uint64_t lit, const Receiver& receiver)

@@ -24,5 +24,6 @@
 #include "candelabra/exposure.h"
 #include "candelabra/lighting.h"
 #include "candelabra/lights.h"
+#include "candelabra/occluders.h"
 
 #endif

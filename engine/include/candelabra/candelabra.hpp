@@ -260,7 +260,7 @@ public:
     }
 };
 
-// Pipelines and one light set.
+// Pipelines, one light set, and what casts shadows.
 class Lighting : public detail::Owner<CndLighting, cndDestroyLighting>
 {
 public:
@@ -339,6 +339,65 @@ public:
     Result<void> removeLights(Span<const CndLightId> ids) noexcept
     {
         return detail::call(cndRemoveLights, handle_, uint32_t(ids.size()), ids.data());
+    }
+    // The calls about occluders need CndLightingDesc::shadows. They write the ids of what they add
+    // to `ids`, which must have as many elements.
+    Result<void> addOccluderMeshes(Span<const CndOccluderMesh> meshes,
+                                   Span<CndOccluderMeshId> ids) noexcept
+    {
+        if (ids.size() != meshes.size())
+            return CndError{
+                CND_ERROR_INVALID_ARGUMENT, VK_SUCCESS,
+                "Lighting::addOccluderMeshes: ids must have as many elements as meshes"};
+        return detail::call(cndAddOccluderMeshes, handle_, uint32_t(meshes.size()), meshes.data(),
+                            ids.data());
+    }
+    Result<CndOccluderMeshId> addOccluderMesh(const CndOccluderMesh& mesh) noexcept
+    {
+        CndOccluderMeshId id = 0;
+        if (const Result<void> added = addOccluderMeshes({&mesh, 1}, {&id, 1}); !added)
+            return added.error();
+        return id;
+    }
+    // `positions` has as many as the mesh was added with.
+    Result<void> replaceOccluderPositions(CndOccluderMeshId mesh, const float* positions,
+                                          uint32_t stride = 0) noexcept
+    {
+        return detail::call(cndReplaceOccluderPositions, handle_, mesh, positions, stride);
+    }
+    Result<void> removeOccluderMeshes(Span<const CndOccluderMeshId> ids) noexcept
+    {
+        return detail::call(cndRemoveOccluderMeshes, handle_, uint32_t(ids.size()), ids.data());
+    }
+    Result<void> addOccluders(Span<const CndOccluderInstance> instances,
+                              Span<CndOccluderId> ids) noexcept
+    {
+        if (ids.size() != instances.size())
+            return CndError{CND_ERROR_INVALID_ARGUMENT, VK_SUCCESS,
+                            "Lighting::addOccluders: ids must have as many elements as instances"};
+        return detail::call(cndAddOccluders, handle_, uint32_t(instances.size()), instances.data(),
+                            ids.data());
+    }
+    Result<CndOccluderId> addOccluder(const CndOccluderInstance& instance) noexcept
+    {
+        CndOccluderId id = 0;
+        if (const Result<void> added = addOccluders({&instance, 1}, {&id, 1}); !added)
+            return added.error();
+        return id;
+    }
+    Result<void> updateOccluders(Span<const CndOccluderId> ids,
+                                 Span<const CndOccluderInstance> instances) noexcept
+    {
+        if (ids.size() != instances.size())
+            return CndError{
+                CND_ERROR_INVALID_ARGUMENT, VK_SUCCESS,
+                "Lighting::updateOccluders: ids must have as many elements as instances"};
+        return detail::call(cndUpdateOccluders, handle_, uint32_t(ids.size()), ids.data(),
+                            instances.data());
+    }
+    Result<void> removeOccluders(Span<const CndOccluderId> ids) noexcept
+    {
+        return detail::call(cndRemoveOccluders, handle_, uint32_t(ids.size()), ids.data());
     }
     Result<VkDescriptorSetLayout> forwardSetLayout() const noexcept
     {

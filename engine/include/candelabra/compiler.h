@@ -51,6 +51,9 @@ typedef struct CndCompileDesc {
     // `lightTypes` is a mask of 1 << CndLightType, 0 for all types; `specularMethods` is a mask of
     // 1 << CndSpecularMethod, 0 for CND_SPECULAR_CONIC alone.
     uint32_t lightTypes, specularMethods;
+    // VK_TRUE: the module will have shadows (CndLightingDesc::shadows), whose kernels differ from
+    // those without.
+    VkBool32 shadows;
     // The version of Vulkan that the code is for: VK_API_VERSION_1_1 (0 means this), 1_2 or 1_3.
     // They give SPIR-V 1.3, 1.5 and 1.6. The version may be lower than that of the device. It must
     // be higher than 1.1 only if the functions use something newer. Code for 1.3 needs the feature

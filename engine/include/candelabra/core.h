@@ -97,7 +97,7 @@ typedef struct CndMemory {
 
 // The host's allocator for all device memory of a module. Neither function may throw. They are
 // called on the calling thread, in cndCreate..., in cndDestroy... and in calls that set or edit
-// lights; never while recording.
+// lights or occluders; never while recording.
 typedef struct CndAllocator {
     // Fills in `memory` and returns VK_SUCCESS, or returns an error. The ABI function that needed
     // the memory then fails with that error.
@@ -130,8 +130,8 @@ typedef enum CndMessageSeverity {
 // Receives one sentence for the host's log about something that is worth knowing but is not an
 // error. (Errors are returned as results and never sent here.) The sentence is valid only until the
 // callback returns. The callback is called on the calling thread, in cndCreate..., in
-// cndGet...Stats and in calls that set or edit lights; never while recording, and not every frame.
-// The callback must not throw and must not call the object that reports.
+// cndGet...Stats and in calls that set or edit lights or occluders; never while recording, and not
+// every frame. The callback must not throw and must not call the object that reports.
 typedef void (*CndMessageCallback)(void* user, CndMessageSeverity severity, const char* sentence);
 
 // The Vulkan device that a module uses. All handles are borrowed and must outlive every object
@@ -188,7 +188,7 @@ typedef struct CndKernelTime {
     double ms;
 } CndKernelTime;
 
-#define CND_MAX_KERNEL_TIMES 16
+#define CND_MAX_KERNEL_TIMES 24
 
 // One pass of a module and whether it ran in one frame. A pass that has nothing to do is skipped.
 // Usually this is known when the frame is recorded, and the skipped pass has no CndKernelTime.
@@ -200,7 +200,7 @@ typedef struct CndPassPlan {
                          // storage
 } CndPassPlan;
 
-#define CND_MAX_PASSES 16
+#define CND_MAX_PASSES 24
 
 #ifdef __cplusplus
 }

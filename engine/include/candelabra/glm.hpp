@@ -34,6 +34,15 @@ void assign(float (&to)[9], const glm::mat<3, 3, float, Q>& from) noexcept
         to[i] = from[i / 3][i % 3];
 }
 
+// Copies a transform from the space of a mesh to the world into CndOccluderInstance::worldFromMesh,
+// row by row.
+template <typename T, glm::qualifier Q>
+void assign(double (&to)[12], const glm::mat<4, 4, T, Q>& from) noexcept
+{
+    for (glm::length_t i = 0; i < 12; ++i)
+        to[i] = from[i % 4][i / 4];
+}
+
 // Makes a CndCamera. `viewFromWorld` is a rotation and a translation. `clipFromView` is a
 // projection for Vulkan's clip space, with depth 0..1 (GLM_FORCE_DEPTH_ZERO_TO_ONE) and with y
 // pointing down. In glm::perspective y points up, so negate its [1][1].

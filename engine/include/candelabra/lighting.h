@@ -119,6 +119,18 @@ typedef enum CndShadingBits {
     CND_SHADING_BITS_MAX_ENUM = 0x7FFFFFFF
 } CndShadingBits;
 
+// Soft shadows of the host's occluders (occluders.h).
+typedef struct CndShadowDesc {
+    // 0 (no shadows), 32 or 64: how many points of each light a pixel asks for. 64 cost little
+    // more. With points the device needs maxPerStageDescriptorStorageBuffers of 12, and depth must
+    // have more than 16 bits: CndGBufferDesc::depthFormat is D24, D32 or a format of 32-bit floats.
+    // If it is VK_FORMAT_UNDEFINED, depth is taken for 32-bit floats.
+    uint32_t points;
+    // Room that creation makes, for triangles of all meshes and for instances; more is allocated
+    // when needed.
+    uint32_t triangleCapacity, instanceCapacity;
+} CndShadowDesc;
+
 typedef struct CndLightingDesc {
     uint32_t structSize;
     uint32_t framesInFlight; // 1..8: frames that the host may have recorded or submitted and not
@@ -173,6 +185,7 @@ typedef struct CndLightingDesc {
     // created, and each view takes up to 2.1 MB more. Not allowed with hostKernels: the measuring
     // kernels do not contain the host's functions.
     VkBool32 influenceByError;
+    CndShadowDesc shadows; // all zero: nothing is allocated, compiled or run for shadows
 } CndLightingDesc;
 
 typedef struct CndLightingViewDesc {
@@ -184,6 +197,12 @@ typedef struct CndLightingViewDesc {
     // light tree. This is slower and gives the same image except for rounding.
     // CndLightingStats::unlistedClusters counts these clusters.
     VkDeviceSize listBudget;
+    // Bytes for what pixels see of lights, with CndLightingDesc::shadows; 0: default, 128 MiB (less
+    // if the device's maxStorageBufferRange is smaller). Every light on the list of a cluster takes
+    // 256 of them, and 12 more beside the budget. Clusters for which there is no room are shaded by
+    // walking the light tree, as those without a list. At least 256 bytes per 8x8 pixel tile of the
+    // largest frame are allocated, but lists use no more than the budget.
+    VkDeviceSize shadowBudget;
 } CndLightingViewDesc;
 
 // One frame of one view.
@@ -252,6 +271,13 @@ typedef struct CndLightingFrame {
     // lights that contribute. a becomes the pixel's CndPixelClass if that is higher. Pixels without
     // a surface are left alone.
     VkImageView pairImage;
+    // With countPairs and CndLightingDesc::shadows: receives the shadows of every pixel, or is
+    // VK_NULL_HANDLE. An image as pairImage. ADDED to it: in r the lights whose visibility the
+    // pixel asked for, in g those of which it sees a part, in b those of which it sees nothing.
+    // Lights of clusters without a list are not counted. Brute force writes nothing to it.
+    VkImageView shadowImage;
+    // VK_TRUE: the frame has no shadows. Ignored without CndLightingDesc::shadows.
+    VkBool32 shadowsOff;
     // Mask of 1 << layer, layer < CND_LAYER_COUNT; 0: all layers. Lights that share no layer with
     // this mask do not exist in this frame, nor for shaders that use its forward set. Lists do not
     // contain them, and brute force skips them.
@@ -329,7 +355,19 @@ typedef struct CndLightingStats {
     uint64_t evaluatedPairs;
     uint64_t insidePairs;       // listed pairs with distance < influence radius
     uint64_t contributingPairs; // inside pairs whose emitter is not wholly below the horizon
-    uint32_t kernelTimeCount;   // 0 without timestamps
+    // With countPairs and CndLightingDesc::shadows: pairs whose visibility was asked for, those of
+    // which the pixel sees a part of the light, and those of which it sees nothing. The same pixels
+    // count as above.
+    uint64_t askedPairs, partlyLitPairs, darkPairs;
+    // Of CndLightingViewDesc::shadowBudget. Each pair of a cluster and a light takes a slot, 256
+    // bytes. shadowSlots: the most that one light type took. missingShadowSlots: how many more
+    // pairs, of all types, found none; their clusters count in unlistedClusters. Brute force and
+    // distant lights do not count.
+    uint32_t shadowSlots, missingShadowSlots;
+    // On devices that limit loops: pairs whose search for occluders was cut off. They have fewer
+    // shadows than they should.
+    uint32_t unfinishedPairs;
+    uint32_t kernelTimeCount; // 0 without timestamps
     CndKernelTime kernelTimes[CND_MAX_KERNEL_TIMES];
     uint32_t passCount; // all passes of the module, in order
     CndPassPlan passes[CND_MAX_PASSES];
@@ -348,7 +386,7 @@ CND_API CndResult cndCreateLighting(const CndDeviceDesc* device, const CndLighti
 // first. NULL is ignored.
 CND_API void cndDestroyLighting(CndLighting lighting);
 // Writes how much memory the module and its views hold now. This includes memory that only frames
-// in flight may still use. A later call that sets or edits lights frees it.
+// in flight may still use. A later call that sets or edits lights or occluders frees it.
 CND_API CndResult cndGetLightingMemory(CndLighting lighting, CndMemoryUsage* usage,
                                        CndError* error);
 
@@ -370,11 +408,11 @@ typedef struct CndLightingPipelines {
 // pipelines. Until then, frames continue as before.
 //
 // This is the only call on a module that may run while other calls on the same module run: those
-// that record, read statistics, set or edit lights, create or destroy views, and this call itself.
-// It must not run while cndCreateLighting or cndDestroyLighting does. Both threads then use
-// CndDeviceDesc::pipelineCache and allocationCallbacks. So the cache must not have been created
-// with VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED_BIT, and the callbacks must be safe to call
-// from both.
+// that record, read statistics, set or edit lights or occluders, create or destroy views, and this
+// call itself. It must not run while cndCreateLighting or cndDestroyLighting does. Both threads
+// then use CndDeviceDesc::pipelineCache and allocationCallbacks. So the cache must not have been
+// created with VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED_BIT, and the callbacks must be safe
+// to call from both.
 //
 // On error, frames and light sets may use what they could use before. Later calls do not create
 // what this call asked for. Pipelines that were created are kept for the next call.
@@ -417,9 +455,9 @@ CND_API void cndDestroyLightingView(CndLightingView view);
 
 // Records culling and shading of one frame. Changes the compute pipeline, compute descriptor sets 0
 // and 1 and the push constants; must be recorded outside a render pass. The first recording after a
-// change uploads the changed lights, whichever view it is of. So each recording of each view of one
-// CndLighting must be submitted exactly once, in the order in which they were recorded, to one
-// queue.
+// change uploads the changed lights and occluders, whichever view it is of. So each recording of
+// each view of one CndLighting must be submitted exactly once, in the order in which they were
+// recorded, to one queue.
 CND_API CndResult cndRecordLighting(CndLightingView view, VkCommandBuffer cmd,
                                     const CndLightingFrame* frame, CndError* error);
 

@@ -33,6 +33,10 @@ typedef enum CndLightType {
 // layer. To hide a light in all frames, remove it (cndRemoveLights).
 #define CND_LAYER_COUNT 16
 
+// Every occluder (occluders.h) is in one of so many occluder layers. Lights name the layers that do
+// not shadow them.
+#define CND_OCCLUDER_LAYER_COUNT 6
+
 // The corners of a polygon light in the coordinates of its axes: corner i is at
 //   position + corners[i][0] axisU + corners[i][1] axisV.
 // cndPolygonFromCorners computes them from points in space.
@@ -94,6 +98,11 @@ typedef struct CndLight {
     uint32_t layers;
     // Polygon: its corners, not NULL. They are read before a call that takes the light returns.
     const CndPolygon* polygon;
+    // VK_TRUE: no occluder shadows this light (occluders.h).
+    VkBool32 unshadowed;
+    // Mask of 1 << occluder layer, layer < CND_OCCLUDER_LAYER_COUNT: occluders of these layers do
+    // not shadow this light, for example the glass shade around a lamp. 0: all occluders do.
+    uint32_t unshadowedBy;
 } CndLight;
 
 // The fields of CndLight that only some types use.
@@ -161,7 +170,10 @@ typedef struct CndDeviceLights {
     // metres. These members affect only speed.
     float boundsMin[3], boundsMax[3];
     float influenceRadius;
-    uint32_t layers; // of all the lights, as CndLight::layers
+    // Of all the lights, as in CndLight.
+    uint32_t layers;
+    VkBool32 unshadowed;
+    uint32_t unshadowedBy;
 } CndDeviceLights;
 
 // A set of lights, with positions relative to an origin. The engine subtracts the camera from the

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests whether the triangles in a box may hide points of a facet. They keep every box with a triangle
-// that does (trianglePoints). Boxes are relative to the receiver, in the space of an instance. The
-// caller has moved each side outwards by BOX_SLACK times (1 + norm1(receiver's position there)).
+// Tests whether the triangles in a box may hide points of a facet. Boxes are relative to the receiver.
+// The caller has moved each side outwards by BOX_SLACK times (1 + norm1(receiver's position)). Both
+// tests keep a box, bit for bit, if they keep a box inside it. Of boxes in another space than the
+// triangle's, they keep those with a triangle that hides points (trianglePoints) if the caller has also
+// moved each side by roundingOf() times the distance of the farthest vertex.
 #ifndef CND_LIB_VISIBILITY_BOX_TESTS
 #define CND_LIB_VISIBILITY_BOX_TESTS
 
 #include "lib/visibility/light_coordinates.glsl"
-#include "shared/lengths.h"
 
 const float BOX_SLACK = 2e-6;
+// Bound of the rounding of light coordinates, relative to the products of lengths that they sum, in any
+// two spaces: boxes are tested in that of the tree over instances, too.
+const float COORDINATE_SLACK = 9.5367431640625e-7; // 2^-20
 
 // A cone with its tip at the receiver, which holds all points in front of the facet: at the share t of
 // the way, 0..1, it is the box from t low to t high.
@@ -25,21 +29,28 @@ vec3 finiteInverse(vec3 x)
     return vec3(x.x < 0.0 ? -1.0 : 1.0, x.y < 0.0 ? -1.0 : 1.0, x.z < 0.0 ? -1.0 : 1.0) / size;
 }
 
-// Returns the cone of a facet from its light coordinates in the space of the boxes.
-FacetCone facetCone(uint shape, FrontSurface front, LightCoordinates local)
+// localFromView: linear part of the transform to the space of the boxes.
+FacetCone facetCone(Facet f, mat3 localFromView)
 {
-    // The inverse of the matrix whose rows are u, v and z has the facet's vectors as columns.
-    const bool atInfinity = front.inverseDistance == 0.0;
-    const vec3 n = cross(local.u, local.v);
-    const float scale = 1.0 / (dot(n, local.z) * (atInfinity ? 1.0 : front.inverseDistance));
-    const vec3 c = n * scale;
-    const vec3 u = abs(cross(local.v, local.z) * scale), v = abs(cross(local.z, local.u) * scale);
+    const vec3 c = localFromView * f.centre, u = localFromView * f.halfU;
+    const vec3 v = localFromView * f.halfV;
     const vec3 extent =
-        shape == FACET_DISC
+        f.shape == FACET_DISC
             ? vec3(length(vec2(u.x, v.x)), length(vec2(u.y, v.y)), length(vec2(u.z, v.z)))
-            : u + v;
-    return FacetCone(finiteInverse(c - extent), finiteInverse(c + extent),
+            : abs(u) + abs(v);
+    const bool atInfinity = f.front.inverseDistance == 0.0;
+    const float inverseUnit = atInfinity ? 1.0 : f.front.inverseDistance;
+    return FacetCone(inverseUnit * finiteInverse(c - extent), inverseUnit * finiteInverse(c + extent),
                      atInfinity ? UNBOUNDED : 1.0);
+}
+
+// Returns how far beside a cone the rounding of light coordinates may move a point, as a share of the
+// point's distance. It is much for flat lights that are seen from the edge.
+float roundingOf(Facet f, LightCoordinates g)
+{
+    const float side = length(f.halfU) + length(f.halfV);
+    const float depth = length(g.z) * length(f.centre);
+    return COORDINATE_SLACK * ((length(g.u) + length(g.v) + length(g.z)) * side + depth);
 }
 
 // Returns whether cone and box may touch: whether some t has t low <= boxMax and t high >= boxMin.
@@ -62,26 +73,16 @@ bool coneTouches(FacetCone cone, vec3 boxMin, vec3 boxMax)
     return first <= last;
 }
 
-// Returns a set that holds all points of the facet that triangles in the box may hide. It is meant for
-// facets that are seen under 0.1 rad or more: in light coordinates of smaller ones, a float32 has too
-// few digits for its bounds.
-uvec2 boxPoints(uint count, uint shape, LightCoordinates g, vec3 boxMin, vec3 boxMax)
+// Returns a set that holds all points of the facet that triangles in the box may hide.
+uvec2 boxPoints(uint count, uint shape, FrontSurface front, LightCoordinates g, vec3 boxMin,
+                vec3 boxMax)
 {
-    const vec3 c = 0.5 * (boxMin + boxMax), h = 0.5 * (boxMax - boxMin);
-    const float u = dot(g.u, c), uExtent = dot(abs(g.u), h);
-    const float v = dot(g.v, c), vExtent = dot(abs(g.v), h);
-    const float z = dot(g.z, c), zExtent = dot(abs(g.z), h);
-    const float z0 = z - zExtent, z1 = z + zExtent;
-    if (z1 <= 0.0)
-        return uvec2(0u);
-    // Larger than the rounding of z0.
-    const bool unbounded = z0 <= 1e-6 * dot(abs(g.z), abs(c) + h);
-    const float inverse0 = unbounded ? UNBOUNDED : 1.0 / z0, inverse1 = 1.0 / z1;
-    const vec2 low = vec2(u - uExtent, v - vExtent), high = vec2(u + uExtent, v + vExtent);
-    return pointsBetween(count, shape, 0u, low.x * (low.x > 0.0 ? inverse1 : inverse0),
-                         high.x * (high.x > 0.0 ? inverse0 : inverse1)) &
-           pointsBetween(count, shape, 1u, low.y * (low.y > 0.0 ? inverse1 : inverse0),
-                         high.y * (high.y > 0.0 ? inverse0 : inverse1));
+    const vec3 c = 0.5 * (boxMin + boxMax);
+    vec3 h = 0.5 * (boxMax - boxMin);
+    h += COORDINATE_SLACK * (norm1(c) + norm1(h));
+    const vec3 middle = vec3(dot(g.u, c), dot(g.v, c), dot(g.z, c));
+    const vec3 extent = vec3(dot(abs(g.u), h), dot(abs(g.v), h), dot(abs(g.z), h));
+    return pointsAround(count, shape, front, middle - extent, middle + extent, 2.0 * POINT_SLACK);
 }
 
 #endif

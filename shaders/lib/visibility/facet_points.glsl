@@ -31,13 +31,15 @@ uvec2 pointsBelow(uint count, uint shape, uint axis, uint k)
     return pointTable(2u * count + (shape * 2u + axis) * POINT_PREFIXES + k);
 }
 
-// Returns a set that holds all points whose coordinate on the axis lies between the bounds. The bounds
-// may be infinite.
-uvec2 pointsBetween(uint count, uint shape, uint axis, float low, float high)
+// How far beyond bounds points count, which is more than the rounding of the bounds.
+const float POINT_SLACK = 1e-4;
+
+// Returns a set that holds all points whose coordinate on the axis lies between the bounds, or at most
+// `slack` beside them. The bounds may be infinite.
+uvec2 pointsBetween(uint count, uint shape, uint axis, float low, float high, float slack)
 {
     if (shape == FACET_POINT)
-        return uvec2(1u, 0u);
-    const float slack = 1e-4; // more than the rounding of the bounds
+        return uvec2(low <= slack && high >= -slack ? 1u : 0u, 0u);
     const float first = clamp(floor((low - slack + 1.0) * 16.0), 0.0, 32.0);
     const float last = clamp(ceil((high + slack + 1.0) * 16.0), 0.0, 32.0);
     return pointsBelow(count, shape, axis, uint(last)) & ~pointsBelow(count, shape, axis, uint(first));

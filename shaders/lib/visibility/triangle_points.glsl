@@ -52,27 +52,11 @@ vec3 preciseCross(vec3 a, vec3 b)
     return c;
 }
 
-float norm1(vec3 x)
-{
-    return abs(x.x) + abs(x.y) + abs(x.z);
-}
-
 // Returns the condition that a point is on the inner side of the edge, or within its slack.
 vec3 edgeCondition(vec3 a, vec3 b, float side)
 {
     const vec3 edge = side * preciseCross(a, b);
     return vec3(edge.x, edge.y, edge.z + EDGE_SLACK * norm1(a) * norm1(b));
-}
-
-// Returns a set that holds all points in the rectangle around the triangle.
-uvec2 pointsAround(uint count, uint shape, vec3 a, vec3 b, vec3 c)
-{
-    if (min(a.z, min(b.z, c.z)) <= 0.0)
-        return allPoints(count, shape);
-    const vec3 u = vec3(a.x / a.z, b.x / b.z, c.x / c.z);
-    const vec3 v = vec3(a.y / a.z, b.y / b.z, c.y / c.z);
-    return pointsBetween(count, shape, 0u, min(u.x, min(u.y, u.z)), max(u.x, max(u.y, u.z))) &
-           pointsBetween(count, shape, 1u, min(v.x, min(v.y, v.z)), max(v.x, max(v.y, v.z)));
 }
 
 // Returns whether the plane of a triangle is so near to the receiver that the triangle may be the
@@ -124,10 +108,12 @@ uint hiddenInWord(TriangleConditions k, FrontSurface front, uint count, uint sha
 // local: light coordinates in the triangle's space (inSpaceOf); localFromView: linear part of the
 // transform to it. va, vb, vc: the vertices minus the receiver's position, in this space.
 // ownDistance: ownSurfaceDistance().
+// turns: grows by the turns that loops take.
 // In light coordinates the triangle's products of three lengths must stay below 1e38: vertices may be
 // 1e8 m away.
 uvec2 trianglePoints(uint count, uint shape, FrontSurface front, LightCoordinates local,
-                     mat3 localFromView, vec3 va, vec3 vb, vec3 vc, float ownDistance, uvec2 lit)
+                     mat3 localFromView, vec3 va, vec3 vb, vec3 vc, float ownDistance, uvec2 lit,
+                     inout uint turns)
 {
     const vec3 a = toLightCoordinates(local, va), b = toLightCoordinates(local, vb);
     const vec3 c = toLightCoordinates(local, vc);
@@ -144,7 +130,9 @@ uvec2 trianglePoints(uint count, uint shape, FrontSurface front, LightCoordinate
         return uvec2(0u);
     if (isOwnSurface(local, localFromView, n, a, height, ownDistance))
         return uvec2(0u);
-    const uvec2 tested = lit & pointsAround(count, shape, a, b, c);
+    const uvec2 tested = lit & pointsAround(count, shape, front, min(a, min(b, c)),
+                                             max(a, max(b, c)), POINT_SLACK);
+    turns += uint(bitCount(tested.x) + bitCount(tested.y));
     return uvec2(hiddenInWord(k, front, count, shape, tested.x, 0u),
                  hiddenInWord(k, front, count, shape, tested.y, 32u));
 }

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/shadows.h"
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
+
+#include "candelabra_shaders.h"
+#include "shading/light_batches.h"
+#include "tables/point_table.h"
+
+namespace candelabra::lighting
+{
+
+using gpu::Binding;
+
+namespace
+{
+
+constexpr VkDeviceSize slotBytes = gpu::SLOT_WORDS * sizeof(uint32_t);
+constexpr VkBufferUsageFlags storage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+
+// Returns the step of a depth format of integers, or 0 for floats. A host's own kinds of depth are
+// floats.
+float depthStep(const CndGBufferDesc& desc)
+{
+    switch (desc.depthFormat) {
+    case VK_FORMAT_X8_D24_UNORM_PACK32:
+    case VK_FORMAT_D24_UNORM_S8_UINT:
+        return 1.0f / float((1 << 24) - 1);
+    default:
+        return 0;
+    }
+}
+
+gpu::ShadowView shadowView(const Module& module, const FramePlan& plan)
+{
+    glm::dmat4 view;
+    std::memcpy(&view, plan.frame.camera.viewFromWorld, sizeof view);
+    const glm::dmat3 rotation(view);
+    const glm::dvec3 eye = glm::transpose(rotation) * -glm::dvec3(view[3]);
+    return {.viewFromTree = glm::mat3(rotation),
+            .viewInTree = glm::vec3(eye - module.occluders->instances().origin()),
+            .layers = plan.shadows ? layersOf(plan.frame.layers) : 0,
+            .depthStep = depthStep(module.gbuffer.desc()),
+            .points = module.desc.shadows.points,
+            .walkTurns = walkTurns(module.device)};
+}
+
+gpu::Buffer createScratch(const Module& module, const char* what, VkDeviceSize bytes,
+                          VkBufferUsageFlags more = 0)
+{
+    return gpu::createBuffer(module.device, what, bytes, storage | more, gpu::MemoryUse::Scratch);
+}
+
+// Returns the number of slots of a view with so many tiles.
+VkDeviceSize slotCount(const gpu::Device& device, VkDeviceSize budget, VkDeviceSize maxTiles)
+{
+    const VkDeviceSize most = device.limits.maxStorageBufferRange;
+    if (maxTiles * slotBytes > most)
+        gpu::failUnsupported("CndLightingViewDesc: shadows of maxWidth x maxHeight pixels need a "
+                             "buffer of " +
+                             std::to_string(maxTiles * slotBytes) +
+                             " bytes, more than the device's maxStorageBufferRange, " +
+                             std::to_string(most));
+    return std::max(budget / slotBytes, maxTiles);
+}
+
+} // namespace
+
+// Every light of a batch takes a slot at each tile, so there are at least as many slots as tiles.
+Shadows::Shadows(const Module& module, const Clusters& clusters, uint32_t slots,
+                 VkDeviceSize budget, uint32_t maxTiles)
+    : module_(module),
+      clusters_(clusters),
+      prepared_(module.device, module.recordings, module.kernels.prepareOccluders, slots),
+      capacity_(uint32_t(budget / slotBytes)),
+      slots_(createScratch(module, "visibility slots",
+                           slotCount(module.device, budget, maxTiles) * slotBytes)),
+      records_(createScratch(
+          module, "asked pairs", sizeof(gpu::WorkList) + capacity_ * sizeof(gpu::AskRecord),
+          VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT)),
+      pageSlots_(
+          createScratch(module, "slots of pages", clusters.entries().size / gpu::PAGE_WORDS)),
+      points_(gpu::createBuffer(module.device, "visibility points",
+                                tables::pointTable(module.desc.shadows.points).size() *
+                                    sizeof(glm::uvec2),
+                                VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT, gpu::MemoryUse::Upload)),
+      views_(gpu::createBuffer(module.device, "shadow parameters", slots * viewStride,
+                               VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, gpu::MemoryUse::Upload)),
+      askSets_(module.kernels.askPairs.createBindings(slots * CND_LIGHT_TYPE_COUNT)),
+      visibilitySets_(module.device, spirv::pair_visibility_comp_sphere,
+                      slots * CND_LIGHT_TYPE_COUNT),
+      countSets_(module.kernels.countShadows[0].createBindings(slots * CND_LIGHT_TYPE_COUNT)),
+      polygonSets_(module.kernels.polygonFacets.createBindings(slots))
+{
+    static_assert(sizeof(gpu::ShadowView) <= viewStride);
+    gpu::createTexelView(module.device, points_, VK_FORMAT_R32G32_UINT, sizeof(glm::uvec2));
+    std::ranges::copy(tables::pointTable(module.desc.shadows.points),
+                      points_.as<glm::uvec2>().begin());
+    prepared_.makeRoom(
+        std::max(module.desc.shadows.instanceCapacity, module.occluders->instances().places()));
+}
+
+Binding Shadows::view(uint32_t slot) const
+{
+    return {.binding = gpu::SHADOW_VIEW,
+            .buffer = views_.get(),
+            .offset = slot * viewStride,
+            .range = sizeof(gpu::ShadowView)};
+}
+
+std::array<Binding, 6> Shadows::occluderBindings(uint32_t slot) const
+{
+    const OccluderSet& occluders = *module_.occluders;
+    // Before there are occluders, a buffer that no walk reads stands for theirs.
+    const auto bind = [&](uint32_t binding, const gpu::Buffer& buffer) {
+        return Binding::of(binding, buffer.get() ? buffer : pageSlots_);
+    };
+    return {bind(gpu::SHADOW_INSTANCE_NODES, occluders.instances().nodeBuffer()),
+            bind(gpu::SHADOW_INSTANCES, prepared_.buffer()),
+            bind(gpu::SHADOW_NODES, occluders.meshes().nodes()),
+            bind(gpu::SHADOW_TRIANGLES, occluders.meshes().triangles()),
+            Binding::ofTexels(gpu::SHADOW_POINTS, points_),
+            view(slot)};
+}
+
+Binding Shadows::counters(const gpu::Buffer& counters)
+{
+    Binding out = Binding::of(gpu::SHADE_COUNTERS, counters);
+    out.offset = gpu::SHADOW_COUNTERS_AT;
+    return out;
+}
+
+void Shadows::writeBindings(const FramePlan& plan, const Inputs& in) const
+{
+    using namespace gpu;
+    const CndLightingFrame& frame = plan.frame;
+    const uint32_t slot = frame.frameSlot;
+    const LightSet& lights = module_.lights;
+    polygonSets_.write(slot, {Binding::of(POLYGON_FACETS_RECORDS, lights.records()),
+                              Binding::of(POLYGON_FACETS_ORDER, lights.order()),
+                              Binding::of(POLYGON_FACETS_SHAPES, in.shapes),
+                              Binding::ofTexels(SHADOW_POINTS, points_)});
+    BindingList surfaces;
+    surfaces.add(occluderBindings(slot));
+    surfaces.add(in.gbuffer.bindings());
+    const Binding shadowCounters = counters(in.counters);
+    Binding askCounters = shadowCounters;
+    askCounters.binding = ASK_PAIRS_SHADOW_COUNTERS;
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
+        if (!lights.typeCounts()[type])
+            continue;
+        const uint32_t set = slot * CND_LIGHT_TYPE_COUNT + type;
+        const Clusters::Lists& lists = clusters_.lists(type);
+        if (!isDistant(type))
+            askSets_.write(set, {Binding::of(ASK_PAIRS_CLUSTERS, clusters_.clusters()),
+                                 Binding::of(ASK_PAIRS_TILES, clusters_.tiles()),
+                                 Binding::of(ASK_PAIRS_SPLITS, clusters_.splits()),
+                                 Binding::of(ASK_PAIRS_LISTS, lists.heads),
+                                 Binding::of(ASK_PAIRS_ENTRIES, clusters_.entries()),
+                                 Binding::of(ASK_PAIRS_UNLISTED, lists.unlisted),
+                                 Binding::of(ASK_PAIRS_COUNTERS, in.counters), askCounters,
+                                 Binding::of(ASK_PAIRS_RECORDS, records_), pageSlots()});
+        visibilitySets_.write(
+            set,
+            {Binding::ofTexels(LIGHT_CORE_TEXELS, in.core), Binding::of(LIGHT_CORE, in.core),
+             Binding::of(SHADE_SHAPES, in.shapes), Binding::of(SHADE_LIGHT_IDS, in.ids),
+             Binding::sampled(SHADE_DEPTH, in.gbuffer.depth), in.uniforms.at(slot),
+             Binding::ofTexels(SHADE_DFG, in.albedoTable),
+             Binding::of(SHADE_TILES, clusters_.tiles()), Binding::of(VISIBILITY_RECORDS, records_),
+             shadowCounters, this->slots()},
+            surfaces);
+        countSets_.write(
+            set,
+            {Binding::sampled(SHADE_DEPTH, in.gbuffer.depth), in.uniforms.at(slot),
+             Binding::of(SHADE_TILES, clusters_.tiles()), Binding::of(SHADE_LISTS, lists.heads),
+             Binding::of(SHADE_ENTRIES, clusters_.entries()),
+             Binding::of(SHADE_WORK, clusters_.surfaces()), shadowCounters,
+             // Every binding needs an image, even if none is written.
+             Binding::storage(SHADE_PAIRS, frame.shadowImage ? frame.shadowImage : frame.radiance),
+             this->slots(), pageSlots()});
+    }
+}
+
+void Shadows::recordBegin(const gpu::Frame& f, const FramePlan& p, const gpu::Buffer& counters,
+                          bool keepsLists) const noexcept
+{
+    const gpu::ShadowView parameters = shadowView(module_, p);
+    std::memcpy(views_.mapped + f.slot * viewStride, &parameters, sizeof parameters);
+    const VkDeviceSize first = keepsLists ? offsetof(gpu::ShadowCounters, slots) : 0;
+    f.device.CmdFillBuffer(f.cmd, counters.get(), gpu::SHADOW_COUNTERS_AT + first,
+                           sizeof(gpu::ShadowCounters) - first, 0);
+}
+
+void Shadows::recordPrepare(const gpu::Frame& f, const FramePlan& p) const noexcept
+{
+    prepared_.record(f, module_.occluders->instances(), p.frame.camera.viewFromWorld);
+}
+
+void Shadows::recordPolygons(const gpu::Frame& f, const FramePlan& p) const noexcept
+{
+    const uint32_t count = module_.lights.typeCounts()[CND_LIGHT_POLYGON];
+    module_.kernels.polygonFacets.dispatch(f, polygonSets_.set(f.slot),
+                                           {.firstPolygon = p.prepare.firstPolygon, .count = count},
+                                           gpu::divideUp(count, gpu::POLYGON_FACETS_GROUP));
+}
+
+void Shadows::recordListed(const gpu::Frame& f, const FramePlan& p, uint32_t type) const noexcept
+{
+    const gpu::WorkList none{.groupsX = gpu::ASK_ROW, .groupsY = 0, .groupsZ = 1};
+    f.device.CmdUpdateBuffer(f.cmd, records_.get(), 0, sizeof none, &none);
+    f.barrier();
+    const uint32_t tiles = p.tileCount.x * p.tileCount.y;
+    module_.kernels.askPairs.dispatchInRows(f, askSets_.set(setOf(f, type)),
+                                            {.tileCount = tiles,
+                                             .firstSplit = clusters_.firstSplit(),
+                                             .splitCapacity = clusters_.splitCapacity(),
+                                             .capacity = capacity_,
+                                             .lightType = type},
+                                            tiles + clusters_.splitCapacity() * gpu::SLICES);
+    f.barrier();
+    module_.kernels.shade.visibility(type).dispatchIndirect(
+        f, visibilitySets_.set(setOf(f, type)), {.batch = {0, 0}, .first = {0, 0}, .tileCountX = 0},
+        records_, 0);
+    f.barrier();
+}
+
+uint32_t Shadows::lightsPerBatch(glm::uvec2 tileCount) const noexcept
+{
+    return std::clamp(capacity_ / (tileCount.x * tileCount.y), 1u,
+                      module_.device.limits.maxComputeWorkGroupCount[2]);
+}
+
+void Shadows::recordBatch(const gpu::Frame& f, const FramePlan&, uint32_t type,
+                          const gpu::LightBatch& batch, glm::uvec2 firstPixel,
+                          glm::uvec2 tileCount) const noexcept
+{
+    module_.kernels.shade.visibility(type).dispatch(
+        f, visibilitySets_.set(setOf(f, type)),
+        {.batch = batch, .first = firstPixel, .tileCountX = tileCount.x}, tileCount.x, tileCount.y,
+        batch.count);
+    f.barrier();
+}
+
+void Shadows::recordCounts(const gpu::Frame& f, const FramePlan& p, uint32_t type,
+                           const gpu::LightBatch& batch) const noexcept
+{
+    for (uint32_t tileClass = 0; tileClass < module_.kernels.shade.tileClasses(); ++tileClass)
+        module_.kernels.countShadows[tileClass].dispatchIndirect(
+            f, countSets_.set(setOf(f, type)),
+            {.batch = batch,
+             .isDistant = isDistant(type),
+             .writesImage = p.frame.shadowImage != VK_NULL_HANDLE},
+            clusters_.surfaces(), tileWorkListAt(gpu::ANY_HEIGHT, tileClass));
+    f.barrier();
+}
+
+} // namespace candelabra::lighting

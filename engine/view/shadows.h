@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// The shadows of one view: what its pixels see of each light between the occluders
+// (shared/occluder_data.h), and the passes that find it.
+#pragma once
+
+#include "clusters/clusters.h"
+#include "occluders/occluder_set.h"
+#include "occluders/prepared_occluders.h"
+#include "shading/shade_kernels.h"
+#include "view/frame_plan.h"
+
+namespace candelabra::lighting
+{
+
+class Shadows
+{
+public:
+    // `budget`: bytes for slots. `maxTiles`: of the largest frame. All arguments must outlive this
+    // object.
+    Shadows(const Module& module, const Clusters& clusters, uint32_t slots, VkDeviceSize budget,
+            uint32_t maxTiles);
+    Shadows(const Shadows&) = delete;
+    Shadows& operator=(const Shadows&) = delete;
+
+    void makeRoom(uint32_t places) { prepared_.makeRoom(places); }
+
+    struct Inputs {
+        const surfaces::GBufferViews& gbuffer;
+        const surfaces::FrameUniforms& uniforms;
+        const gpu::Buffer &core, &shapes, &ids, &albedoTable, &counters;
+    };
+    // Writes the bindings of the frame's kernels.
+    void writeBindings(const FramePlan& plan, const Inputs& inputs) const;
+    // The bindings through which kernels walk through occluders.
+    std::array<gpu::Binding, 6> occluderBindings(uint32_t slot) const;
+    // The binding SHADE_COUNTERS of kernels that count shadows.
+    static gpu::Binding counters(const gpu::Buffer& counters);
+    gpu::Binding view(uint32_t slot) const;
+    gpu::Binding slots() const { return gpu::Binding::of(gpu::SHADOW_SLOTS, slots_); }
+    gpu::Binding pageSlots() const { return gpu::Binding::of(gpu::SHADOW_PAGE_SLOTS, pageSlots_); }
+
+    // Writes the parameters of the frame, after the upload of its occluders. Clears the counters;
+    // those of clusters without slots keep their values if lists are kept.
+    void recordBegin(const gpu::Frame& frame, const FramePlan& plan, const gpu::Buffer& counters,
+                     bool keepsLists) const noexcept;
+    // Records what the other passes need, for frames that prepare lights. The caller puts barriers
+    // before and after, and one between.
+    void recordPrepare(const gpu::Frame& frame, const FramePlan& plan) const noexcept;
+    void recordPolygons(const gpu::Frame& frame, const FramePlan& plan) const noexcept;
+    // Finds the visibility of every light in the lists of a type. Ends with a barrier.
+    void recordListed(const gpu::Frame& frame, const FramePlan& plan, uint32_t type) const noexcept;
+    // Returns how many lights recordBatch() can take at once.
+    uint32_t lightsPerBatch(glm::uvec2 tileCount) const noexcept;
+    // Finds the visibility of the lights of a batch in tiles from a pixel on. Ends with a barrier.
+    void recordBatch(const gpu::Frame& frame, const FramePlan& plan, uint32_t type,
+                     const gpu::LightBatch& batch, glm::uvec2 firstPixel,
+                     glm::uvec2 tileCount) const noexcept;
+    // Counts what recordListed(), or recordBatch() with this batch for all tiles, has found.
+    void recordCounts(const gpu::Frame& frame, const FramePlan& plan, uint32_t type,
+                      const gpu::LightBatch& batch) const noexcept;
+
+private:
+    // The offset of each slot is a multiple of this, the largest minUniformBufferOffsetAlignment
+    // that Vulkan allows a device.
+    static constexpr VkDeviceSize viewStride = 256;
+    uint32_t setOf(const gpu::Frame& frame, uint32_t type) const noexcept
+    {
+        return frame.slot * CND_LIGHT_TYPE_COUNT + type;
+    }
+
+    const Module& module_;
+    const Clusters& clusters_;
+    PreparedOccluders prepared_;
+    uint32_t capacity_; // of slots that lists may take
+    gpu::Buffer slots_, records_, pageSlots_, points_, views_;
+    gpu::Bindings askSets_, visibilitySets_, countSets_; // per slot and type
+    gpu::Bindings polygonSets_;                          // per slot
+};
+
+} // namespace candelabra::lighting

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Each lane finds the visible shares of a block of lights itself, before light_walk.glsl evaluates
+// them. The lanes of a group walk for different lights, which is slower than pair_visibility. It is for
+// pixels that have no slots, and for hosts' shaders.
+#ifndef CND_SHADING_BLOCK_VISIBILITY
+#define CND_SHADING_BLOCK_VISIBILITY
+
+#include "shading/classify_lights.glsl"
+#include "shading/light_visibility.glsl"
+
+#ifdef QUEUE_LANES
+shared uint blockShares[SHADOW_BLOCK * QUEUE_LANES];
+#define BLOCK_SHARES(k) blockShares[(k) * QUEUE_LANES + gl_LocalInvocationIndex]
+#else
+uint blockShares[SHADOW_BLOCK];
+#define BLOCK_SHARES(k) blockShares[k]
+#endif
+
+uint unfinishedPairs = 0u; // lights whose occluders were not all found (lightVisibility)
+float pointDepthError = 0.0; // of the point that is lit (lightVisibility)
+
+// Returns the visible shares of the k-th light. Blocks begin at 0.
+uint visibleSharesAt(uint k)
+{
+    return shadowView.layers == 0u ? SHARES_LIT : BLOCK_SHARES(k);
+}
+
+// Finds the visible shares of these lights of a block.
+void findShares(Receiver r, uvec2 found)
+{
+    uint left = shadowView.layers == 0u ? 0u : found.x;
+    // All lanes stay in this loop until the last one leaves it (occluder_walk.glsl).
+    while (subgroupAny(left != 0u)) {
+        const bool asks = left != 0u;
+        const uint k = asks ? uint(findLSB(left)) : 0u;
+        bool isFinished;
+        const uint shares = lightVisibility(lightAt(k), r.p, pointDepthError, asks, isFinished);
+        if (asks) {
+            BLOCK_SHARES(k) = shares;
+            unfinishedPairs += isFinished ? 0u : 1u;
+        }
+        left &= left - 1u;
+    }
+}
+
+#endif

@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: Apache-2.0
+// Frames with shadows: lights of all types, found through lists, without lists and by brute force,
+// while lights and occluders change.
+#include <random>
+#include <set>
+#include <string>
+
+#include "gpu/lighting_harness.h"
+
+namespace candelabra::test
+{
+namespace
+{
+
+class VisibilityFrames : public LightingTest
+{
+protected:
+    // The lighting that the tests of a process share. Its occluders are those of the present test.
+    CndLighting lighting()
+    {
+        static CndLighting out = VK_NULL_HANDLE;
+        if (!out) {
+            destroyAfterTests([] { cndDestroyLighting(out); });
+            const CndLightingDesc desc{.structSize = sizeof desc,
+                                       .framesInFlight = 2,
+                                       .specularMethods = 1u << CND_SPECULAR_CONIC,
+                                       .shading = CND_SHADING_CLUSTERED_BIT,
+                                       .shadows = {.points = 64}};
+            CndError error{};
+            EXPECT_EQ(cndCreateLighting(&deviceDesc(), &desc, &out, &error), CND_SUCCESS)
+                << error.message;
+        }
+        return out;
+    }
+    void TearDown() override
+    {
+        removeOccluders();
+        LightingTest::TearDown();
+    }
+    // Adds a mesh of random triangles of about 1 m, and `count` instances of it near the surfaces.
+    void addOccluders(uint32_t count, uint32_t seed, uint32_t layer = 0)
+    {
+        random_.seed(seed);
+        std::vector<float> positions;
+        for (int i = 0; i < 3 * 3 * 12; ++i)
+            positions.push_back(float(uniform(-0.7, 0.7)));
+        const CndOccluderMesh mesh{.positions = positions.data(),
+                                   .vertexCount = uint32_t(positions.size() / 3),
+                                   .triangleCount = uint32_t(positions.size() / 9)};
+        CndError error{};
+        EXPECT_EQ(cndAddOccluderMeshes(lighting(), 1, &mesh, &meshes_.emplace_back(), &error),
+                  CND_SUCCESS)
+            << error.message;
+        std::vector<CndOccluderInstance> instances;
+        for (uint32_t i = 0; i < count; ++i)
+            instances.push_back(someInstance(meshes_.back(), layer));
+        occluders_.resize(occluders_.size() + count);
+        EXPECT_EQ(cndAddOccluders(lighting(), count, instances.data(),
+                                  &occluders_[occluders_.size() - count], &error),
+                  CND_SUCCESS)
+            << error.message;
+        instances_.insert(instances_.end(), instances.begin(), instances.end());
+    }
+    CndOccluderInstance someInstance(CndOccluderMeshId mesh, uint32_t layer)
+    {
+        const glm::dvec3 at(uniform(-4, 4), uniform(-3, 3), uniform(-12, -4));
+        CndOccluderInstance out{.mesh = mesh, .occluderLayer = layer};
+        for (int row = 0; row < 3; ++row) {
+            for (int column = 0; column < 3; ++column)
+                out.worldFromMesh[4 * row + column] = (row == column) + uniform(-0.3, 0.3);
+            out.worldFromMesh[4 * row + 3] = at[row];
+        }
+        return out;
+    }
+    void removeOccluders()
+    {
+        CndError error{};
+        EXPECT_EQ(
+            cndRemoveOccluders(lighting(), uint32_t(occluders_.size()), occluders_.data(), &error),
+            CND_SUCCESS)
+            << error.message;
+        EXPECT_EQ(
+            cndRemoveOccluderMeshes(lighting(), uint32_t(meshes_.size()), meshes_.data(), &error),
+            CND_SUCCESS)
+            << error.message;
+        occluders_.clear();
+        meshes_.clear();
+        instances_.clear();
+    }
+    LightingResult draw(const std::vector<CndLight>& lights, RunOptions options = {})
+    {
+        options.specular = CND_SPECULAR_CONIC;
+        options.lighting = lighting();
+        return run(surfaces, lights, options);
+    }
+    double uniform(double low, double high)
+    {
+        return low + (high - low) * double(random_()) / 4294967296.0;
+    }
+    static std::vector<CndLight> everyType(const CpuGBuffer& g, uint32_t count)
+    {
+        std::vector<CndLight> lights;
+        for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+            for (const CndLight& light : lightsOf(CndLightType(type), g, count, type + 1))
+                lights.push_back(light);
+        return lights;
+    }
+
+    const CpuGBuffer surfaces = randomGBuffer(96, 64, 3);
+    std::mt19937 random_;
+    std::vector<CndOccluderMeshId> meshes_;
+    std::vector<CndOccluderId> occluders_;
+    std::vector<CndOccluderInstance> instances_; // as occluders_
+};
+
+} // namespace
+
+// A light of any type is shadowed, and all ways of finding lights give the same image.
+TEST_F(VisibilityFrames, ListsTreesAndBruteForceGiveTheSame)
+{
+    addOccluders(40, 1);
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
+        const auto lights = lightsOf(CndLightType(type), surfaces, 25, type + 1);
+        const LightingResult listed = draw(lights, {.countPairs = true});
+        const CndLightingStats& s = listed.stats;
+        const bool hasSize = !cndIsPunctual(type);
+        EXPECT_GT(s.askedPairs, 1000u) << type;
+        EXPECT_GT(s.darkPairs, s.askedPairs / 100) << type;
+        EXPECT_EQ(s.partlyLitPairs > 0, hasSize) << type;
+        EXPECT_LT(s.darkPairs + s.partlyLitPairs, s.askedPairs) << type;
+        EXPECT_EQ(s.missingShadowSlots, 0u) << type;
+        EXPECT_EQ(s.unfinishedPairs, 0u) << type;
+        EXPECT_EQ(s.unlistedClusters, 0u) << type;
+        const LightingResult unlisted = draw(lights, {.shadowBudget = 4096});
+        if (!cndIsDistant(type)) {
+            EXPECT_GT(unlisted.stats.unlistedClusters, 0u) << type;
+            EXPECT_GT(unlisted.stats.missingShadowSlots, 0u) << type;
+            EXPECT_LE(unlisted.stats.shadowSlots, 16u) << type;
+        }
+        EXPECT_TRUE(
+            agree(listed.radiance, unlisted.radiance, cndIsDistant(type) ? batchesOnLlvmpipe : 0))
+            << type;
+        const LightingResult brute = draw(lights, {.culling = CND_CULLING_BRUTE});
+        EXPECT_TRUE(agree(listed.radiance, brute.radiance, batchesOnLlvmpipe)) << type;
+        EXPECT_EQ(unlisted.stats.unfinishedPairs, 0u) << type;
+        // Some clusters find slots, and some do not. The budget ends within a row of groups.
+        const LightingResult some = draw(lights, {.shadowBudget = 300 * 256});
+        if (!cndIsDistant(type)) {
+            EXPECT_GT(some.stats.missingShadowSlots, 0u) << type;
+            EXPECT_GT(some.stats.shadowSlots, 200u) << type;
+        }
+        EXPECT_TRUE(
+            agree(listed.radiance, some.radiance, cndIsDistant(type) ? batchesOnLlvmpipe : 0))
+            << type;
+        RunOptions off;
+        off.withFrame = [](CndLightingFrame& frame) { frame.shadowsOff = VK_TRUE; };
+        EXPECT_GT(maxRelativeDifference(draw(lights, off).radiance, listed.radiance), 1e-3) << type;
+    }
+}
+
+// A frame without shadows has the bits that a module without shadows gives it, and so does every
+// pixel that sees all of its lights.
+TEST_F(VisibilityFrames, WhatNothingHidesHasTheSameBits)
+{
+    const auto lights = everyType(surfaces, 8);
+    const LightingResult without =
+        run(surfaces, lights, {.specular = CND_SPECULAR_CONIC, .ownLighting = true});
+    EXPECT_TRUE(agree(without.radiance, draw(lights).radiance)); // no occluder
+    addOccluders(12, 2);
+    RunOptions off;
+    off.withFrame = [](CndLightingFrame& frame) { frame.shadowsOff = VK_TRUE; };
+    EXPECT_TRUE(agree(without.radiance, draw(lights, off).radiance));
+    off.withFrame = [](CndLightingFrame& frame) { frame.shadowsOff = VK_FALSE; };
+    RunOptions counted{.countPairs = true};
+    const Images shadows = uploadImages(surfaces);
+    context().submitAndWait([&](VkCommandBuffer cmd) { clearRadiance(cmd, shadows); });
+    counted.withFrame = [&](CndLightingFrame& frame) {
+        frame.shadowImage = shadows.radiance.view.get();
+    };
+    LightingResult shadowed = draw(lights, counted);
+    const std::vector<glm::vec4> counts = readRadiance(shadows);
+    glm::dvec3 sum(0);
+    size_t lit = 0, hidden = 0;
+    for (size_t i = 0; i < counts.size(); ++i) {
+        sum += glm::dvec3(counts[i]);
+        const bool isLit = counts[i].y == 0 && counts[i].z == 0;
+        ++(isLit ? lit : hidden);
+        if (!isLit)
+            shadowed.radiance[i] = without.radiance[i];
+    }
+    EXPECT_GT(lit, counts.size() / 20);
+    EXPECT_GT(hidden, counts.size() / 20);
+    EXPECT_TRUE(agree(without.radiance, shadowed.radiance));
+    EXPECT_EQ(uint64_t(sum.x), shadowed.stats.askedPairs);
+    EXPECT_EQ(uint64_t(sum.y), shadowed.stats.partlyLitPairs);
+    EXPECT_EQ(uint64_t(sum.z), shadowed.stats.darkPairs);
+}
+
+TEST_F(VisibilityFrames, LightsIgnoreTheOccludersThatTheyName)
+{
+    auto lights = everyType(surfaces, 6);
+    addOccluders(20, 3, 2);
+    const LightingResult ofLayer2 = draw(lights);
+    addOccluders(20, 4, 5);
+    const LightingResult ofBoth = draw(lights);
+    RunOptions off;
+    off.withFrame = [](CndLightingFrame& frame) { frame.shadowsOff = VK_TRUE; };
+    const LightingResult none = draw(lights, off);
+    EXPECT_FALSE(sameBits(ofLayer2, ofBoth));
+    const auto withAll = [&](VkBool32 unshadowed, uint32_t by) {
+        for (CndLight& light : lights) {
+            light.unshadowed = unshadowed;
+            light.unshadowedBy = by;
+        }
+        return draw(lights);
+    };
+    EXPECT_TRUE(sameBits(withAll(VK_TRUE, 0), none));
+    EXPECT_TRUE(sameBits(withAll(VK_FALSE, 1u << 2 | 1u << 5), none));
+    EXPECT_TRUE(sameBits(withAll(VK_FALSE, 1u << 5), ofLayer2));
+    EXPECT_TRUE(sameBits(withAll(VK_FALSE, 1u << 3), ofBoth));
+}
+
+// Occluders of other layers than the frame's hide nothing.
+TEST_F(VisibilityFrames, OccludersAreInLayers)
+{
+    const auto lights = everyType(surfaces, 5);
+    addOccluders(20, 6);
+    const LightingResult all = draw(lights);
+    for (CndOccluderInstance& instance : instances_)
+        instance.layers = 2;
+    CndError error{};
+    EXPECT_EQ(cndUpdateOccluders(lighting(), uint32_t(occluders_.size()), occluders_.data(),
+                                 instances_.data(), &error),
+              CND_SUCCESS)
+        << error.message;
+    RunOptions off;
+    off.withFrame = [](CndLightingFrame& frame) { frame.shadowsOff = VK_TRUE; };
+    EXPECT_FALSE(sameBits(draw(lights, off), all));
+    EXPECT_TRUE(sameBits(draw(lights), all));
+    EXPECT_TRUE(sameBits(draw(lights, {.layers = 2}), all));
+    EXPECT_TRUE(sameBits(draw(lights, {.layers = 1}), draw(lights, off)));
+}
+
+// After many edits the image is that of a new set, however the tree has come about.
+TEST_F(VisibilityFrames, EditsGiveTheImageOfANewSet)
+{
+    const auto lights = everyType(surfaces, 5);
+    addOccluders(40, 5);
+    CndError error{};
+    for (int i = 0; i < 1000; ++i) {
+        const size_t k = random_() % occluders_.size();
+        instances_[k] = someInstance(meshes_.back(), 0);
+        if (i % 4) {
+            EXPECT_EQ(cndUpdateOccluders(lighting(), 1, &occluders_[k], &instances_[k], &error),
+                      CND_SUCCESS)
+                << error.message;
+        } else {
+            EXPECT_EQ(cndRemoveOccluders(lighting(), 1, &occluders_[k], &error), CND_SUCCESS)
+                << error.message;
+            EXPECT_EQ(cndAddOccluders(lighting(), 1, &instances_[k], &occluders_[k], &error),
+                      CND_SUCCESS)
+                << error.message;
+        }
+        if (i % 200 == 0)
+            draw(lights);
+    }
+    const LightingResult edited = draw(lights);
+    RunOptions off;
+    off.withFrame = [](CndLightingFrame& frame) { frame.shadowsOff = VK_TRUE; };
+    EXPECT_FALSE(sameBits(edited, draw(lights, off)));
+    EXPECT_EQ(
+        cndRemoveOccluders(lighting(), uint32_t(occluders_.size()), occluders_.data(), &error),
+        CND_SUCCESS)
+        << error.message;
+    EXPECT_EQ(cndAddOccluders(lighting(), uint32_t(occluders_.size()), instances_.data(),
+                              occluders_.data(), &error),
+              CND_SUCCESS)
+        << error.message;
+    EXPECT_TRUE(sameBits(draw(lights), edited));
+}
+
+TEST_F(VisibilityFrames, TenRunsHaveTheSameBits)
+{
+    const auto lights = everyType(surfaces, 6);
+    addOccluders(30, 7);
+    const LightingResult first = draw(lights);
+    RunOptions off;
+    off.withFrame = [](CndLightingFrame& frame) { frame.shadowsOff = VK_TRUE; };
+    EXPECT_FALSE(sameBits(first, draw(lights, off)));
+    for (int i = 1; i < 10; ++i)
+        EXPECT_TRUE(sameBits(draw(lights, {.frames = 1 + i % 3, .unchanged = i % 2 == 0}), first));
+}
+
+// Lists that were made without shadows are not kept for a frame with shadows.
+TEST_F(VisibilityFrames, ShadowsMayComeWhileNothingMoves)
+{
+    const auto lights = everyType(surfaces, 5);
+    addOccluders(30, 8);
+    const LightingResult shadowed = draw(lights);
+    int drawn = 0;
+    RunOptions options{.frames = 3, .unchanged = true};
+    options.withFrame = [](CndLightingFrame& f) { f.shadowsOff = VK_TRUE; };
+    options.beforeFrame = [&] { ++drawn; };
+    EXPECT_FALSE(sameBits(draw(lights, options), shadowed));
+    options.changeFrame = [&](CndLightingFrame& f) { f.shadowsOff = drawn % 3 == 1; };
+    EXPECT_TRUE(sameBits(draw(lights, options), shadowed));
+}
+
+// A module without shadows has none of their passes.
+TEST_F(VisibilityFrames, PassesOfShadowsBelongToModulesWithShadows)
+{
+    const auto lights = everyType(surfaces, 2);
+    const auto passes = [](const LightingResult& result) {
+        std::set<std::string> names;
+        for (uint32_t i = 0; i < result.stats.passCount; ++i)
+            names.insert(result.stats.passes[i].name);
+        return names;
+    };
+    const std::set<std::string> without =
+        passes(run(surfaces, lights, {.specular = CND_SPECULAR_CONIC}));
+    std::set<std::string> with = passes(draw(lights));
+    EXPECT_EQ(without.size(), 16u);
+    for (const char* name :
+         {"prepare_occluders", "polygon_facets", "ask_pairs", "pair_visibility", "count_shadows"})
+        EXPECT_EQ(with.erase(name), 1u) << name;
+    EXPECT_EQ(with, without);
+}
+
+} // namespace candelabra::test
