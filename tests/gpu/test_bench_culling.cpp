@@ -106,7 +106,29 @@ TEST_F(BenchCulling, BruteForceOverTheLimitIsListedWithItsEstimate)
     EXPECT_GT(points[0].of(bruteName).skippedMs.value_or(0), 0);
     EXPECT_NE(textOf(cullingTables(points)).find("skipped"), std::string::npos);
     const auto json = nlohmann::json::parse(cullingJson(settings, points).dump());
+    EXPECT_EQ(json["shadows"], "off");
     const auto brute = json["points"][0]["contenders"][3];
     EXPECT_EQ(brute["skipped"], true);
     EXPECT_GT(brute["estimatedMs"].get<double>(), 0);
+}
+
+TEST_F(BenchCulling, TheFrameWithShadowsIsOneMore)
+{
+    const CullingSettings settings{.scenes = {"fence"},
+                                   .sizes = {{64, 48}},
+                                   .lights = {200},
+                                   .overlaps = {8},
+                                   .rounds = 2,
+                                   .shadows = 32,
+                                   .bruteLimit = 0};
+    Progress progress(1, false);
+    const std::vector<CullingPoint> points = measureCulling(context(), settings, progress);
+    const Contender& shadowed = points.at(0).of(shadowedName);
+    EXPECT_EQ(shadowed.times.frames(), 2u);
+    EXPECT_GT(shadowed.shadingMs(), points[0].of(engineName).shadingMs());
+    EXPECT_EQ(shadowed.listedPairs, points[0].of(engineName).listedPairs);
+    EXPECT_FALSE(shadowed.difference);
+    EXPECT_TRUE(cullingFailures(points).empty()); // the other ways have the unshadowed image
+    EXPECT_EQ(cullingJson(settings, points)["shadows"], "32");
+    EXPECT_NE(textOf(cullingTables(points)).find(shadowedName), std::string::npos);
 }

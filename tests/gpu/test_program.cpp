@@ -126,6 +126,59 @@ TEST_F(ProgramTest, CullingAndFrameCountDoNotChangeTheImage)
     EXPECT_EQ(a, app::loadPfm(path("c.pfm")).pixels);
 }
 
+// A wall is between most lights of rooms and most of what they light without shadows.
+TEST_F(ProgramTest, ShadowsTakeLightAway)
+{
+    const std::string start = "render rooms --lights 200 --size 64x36 --aa 1 -o ";
+    const Outcome off = run(start + "a.pfm --validate");
+    ASSERT_EQ(off.exitCode, 0) << off.err;
+    EXPECT_NE(off.err.find("shadows are off; --shadows 64 turns them on"), std::string::npos);
+    const Outcome on =
+        run(start + "b.pfm --shadows 64 --json b.json --explain --pick 32,25 --validate");
+    ASSERT_EQ(on.exitCode, 0) << on.err;
+    EXPECT_EQ(on.err.find("shadows are off"), std::string::npos);
+    EXPECT_NE(on.out.find("shadows: a pixel asks for "), std::string::npos) << on.out;
+    const auto json = nlohmann::json::parse(text("b.json"));
+    EXPECT_EQ(json["settings"]["shadows"], "64");
+    EXPECT_EQ(test::keyFaults(json["lighting"]["shadows"], "render-shadows"), "");
+    EXPECT_NE(on.out.find("hidden most by"), std::string::npos) << on.out;
+    int hidden = 0, seen = 0; // lights at the picked pixel
+    for (const auto& light : json["pick"]["lights"]) {
+        const auto& shadows = light["shadows"];
+        EXPECT_EQ(test::keyFaults(shadows, "render-pick-shadows"),
+                  shadows["occluders"].empty() ? "-render-pick-shadows.occluders[]: name share\n"
+                                               : "");
+        hidden += shadows["visibleDiffuse"] == 0.0;
+        seen += shadows["visibleDiffuse"] == 1.0;
+        EXPECT_EQ(light["radiance"][1] == 0.0, shadows["visibleDiffuse"] == 0.0) << light;
+    }
+    EXPECT_GT(hidden, 0);
+    EXPECT_GT(seen, 0);
+    const auto a = app::loadPfm(path("a.pfm")).pixels, b = app::loadPfm(path("b.pfm")).pixels;
+    double all = 0, kept = 0;
+    ASSERT_EQ(a.size(), b.size());
+    for (size_t i = 0; i < a.size(); ++i) {
+        EXPECT_LE(b[i], a[i] * 1.001f + 1e-6f) << i;
+        all += double(a[i]);
+        kept += double(b[i]);
+    }
+    EXPECT_GT(kept, 0.5 * all);
+    EXPECT_LT(kept, 0.95 * all);
+}
+
+TEST_F(ProgramTest, HeatMapOfShadowsNeedsShadows)
+{
+    const std::string start = "render rooms --lights 40 --size 256x144 -o c.png --debug shadow ";
+    const Outcome without = run(start);
+    EXPECT_EQ(without.exitCode, 2);
+    EXPECT_NE(without.err.find("--debug shadow: there are no shadows; add --shadows 64"),
+              std::string::npos)
+        << without.err;
+    const Outcome with = run(start + "--shadows 64 --validate");
+    ASSERT_EQ(with.exitCode, 0) << with.err;
+    EXPECT_GT(readPng(path("c.png")).distinct, 10); // mixed colours
+}
+
 // Several samples give the same bits in every run, keep the light of the picture, and change its
 // edges. Pictures of CPU devices have one unless more are asked for, those of GPUs 16.
 TEST_F(ProgramTest, SamplesSmoothEdges)
@@ -461,6 +514,28 @@ TEST_F(ProgramTest, BenchSkipComparesFramesOfTheSameImage)
     EXPECT_EQ(json["skips"][1]["withMs"], 0.0); // the whole image is kept
     for (const auto& row : json["skips"])
         EXPECT_GT(row["withoutMs"], 0.0) << row;
+}
+
+TEST_F(ProgramTest, BenchVisibilityComparesShadowsWithRays)
+{
+    const Outcome outcome = run("bench visibility rooms --lights 40 --size 64x36 --rounds 1 "
+                                "--pixels 30 --json v.json -q --validate");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("16 random rays"), std::string::npos) << outcome.out;
+    const auto json = nlohmann::json::parse(text("v.json"));
+    EXPECT_EQ(test::keyFaults(json, "bench-visibility"), "");
+    const auto& pairs = json["pairs"];
+    EXPECT_GT(pairs["dark"], 0);
+    EXPECT_GT(pairs["lit"], 0);
+    EXPECT_EQ(pairs["asked"].get<int64_t>(), pairs["lit"].get<int64_t>() +
+                                                 pairs["partlyLit"].get<int64_t>() +
+                                                 pairs["dark"].get<int64_t>());
+    EXPECT_GT(json["pixelsCompared"], 2);
+    EXPECT_EQ(json["leaks"], 0);
+    const auto& errors = json["errors"]; // of the engine, without shadows, and of rays
+    ASSERT_EQ(errors.size(), 6u);
+    EXPECT_LT(errors[0]["meanPercent"], 2.0);
+    EXPECT_GT(errors[1]["meanPercent"], 5.0);
 }
 
 TEST_F(ProgramTest, ReportIsOnePageThatNeedsNothingElse)

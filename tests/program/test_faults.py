@@ -161,6 +161,7 @@ BASE = {
     "bench host": ["bench", "host", "--lights=5", "--rounds=1"],
     "bench pipelines": ["bench", "pipelines"],
     "bench skip": ["bench", "skip", "--lights=5", "--size=8x8", "--out=o"],
+    "bench visibility": ["bench", "visibility", "hall", "--lights=5", "--size=8x8", "--pixels=1", "--rounds=1", "--out=o"],
     "bench stability": ["bench", "stability", "--configs=1000", "--out=o"],
     "devices": ["devices"], "help": ["help"], "examples": ["examples", "o"],
 }

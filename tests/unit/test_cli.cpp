@@ -293,10 +293,12 @@ TEST(Options, EveryMethodFollowsAnother)
 // render --pick refuses frames in which lights cannot be drawn alone; the viewer says so.
 TEST(Options, PixelsArePickedWhereLightsCanBeDrawnAlone)
 {
+    EXPECT_EQ(pickRefusal({.shadows = 32}), "");
     for (const Choice<CndSpecularMethod>& method : specularChoices)
         for (const CndInfluenceRule rule :
              {CND_INFLUENCE_GIVEN, CND_INFLUENCE_UNCUT, CND_INFLUENCE_BY_ERROR}) {
-            const std::string refusal = pickRefusal(method.value, rule);
+            const std::string refusal =
+                pickRefusal({.specular = method.value, .influence = {.rule = rule}});
             EXPECT_EQ(refusal.find("samples") != std::string::npos,
                       method.value == CND_SPECULAR_SAMPLED);
             EXPECT_EQ(refusal.empty(),

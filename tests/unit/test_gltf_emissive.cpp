@@ -129,6 +129,47 @@ TEST_F(GltfEmissive, OtherShapesStayMeshes)
     EXPECT_TRUE(load(panel(rectangle_, {0, 1, 2, 2, 3, 1}), lit_).lights.empty());
 }
 
+// An emissive octahedron of that many of its eight sides around the origin, and a point light in
+// it.
+GltfBuilder bulb(size_t sides, const Json& light = {0, 0.1, 0})
+{
+    GltfBuilder b = triangleScene();
+    b.json["materials"] = Json::parse(R"([{"emissiveFactor": [1, 0.5, 0.25]}, {}])");
+    std::vector<uint16_t> indices = {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4,
+                                     2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
+    indices.resize(3 * sides);
+    b.rootNode(
+        {{"mesh",
+          b.mesh({{"attributes",
+                   {{"POSITION",
+                     b.floats({1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1}, "VEC3")}}},
+                  {"indices", b.indices(indices)},
+                  {"material", 0}})}});
+    b.json["extensionsUsed"] = {"KHR_lights_punctual"};
+    b.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+    b.rootNode({{"translation", light}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    return b;
+}
+
+TEST_F(GltfEmissive, LampsDoNotShadowTheirLights)
+{
+    const auto layers = [this](const GltfBuilder& b) {
+        const Scene scene = load(b);
+        EXPECT_EQ(scene.lights.size(), 1u);
+        EXPECT_EQ(scene.instances[0].occluderLayer, 0u); // the triangle
+        return std::pair(scene.instances.at(1).occluderLayer, scene.lights.at(0).unshadowedBy);
+    };
+    const std::pair<uint32_t, uint32_t> isBody(1, 2), isNone(0, 0);
+    EXPECT_EQ(layers(bulb(8)), isBody);
+    EXPECT_EQ(layers(bulb(7)), isBody);              // without its base
+    EXPECT_EQ(layers(bulb(3)), isNone);              // a reflector
+    EXPECT_EQ(layers(bulb(8, {0, 1.1, 0})), isNone); // beside it
+    EXPECT_EQ(layers(bulb(8, {0.6, 0.6, 0.6})), isNone);
+    GltfBuilder dark = bulb(8);
+    dark.json["meshes"][1]["primitives"][0]["material"] = 1;
+    EXPECT_EQ(layers(dark), isNone);
+}
+
 } // namespace
 
 } // namespace candelabra::test

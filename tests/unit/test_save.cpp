@@ -87,6 +87,8 @@ void expectSameLights(const Scene& a, const Scene& b)
         const std::string what = "light " + std::to_string(i);
         ASSERT_EQ(x.type, y.type) << what;
         EXPECT_EQ(x.layers, y.layers) << what;
+        EXPECT_EQ(x.unshadowed, y.unshadowed) << what;
+        EXPECT_EQ(x.unshadowedBy, y.unshadowedBy) << what;
         expectSameVector(x.emission, y.emission, what);
         const uint32_t fields = cndLightFields(x.type);
         if (fields & CND_LIGHT_FIELD_POLYGON_BIT) {
@@ -164,6 +166,7 @@ TEST_F(Save, PlanesAndBallsUnderEveryLight)
         EXPECT_EQ(a.type, b.type);
         EXPECT_EQ(a.point, b.point);
         EXPECT_EQ(a.radius, b.radius);
+        EXPECT_EQ(a.occluderLayer, b.occluderLayer);
         const Material &m = scene.materials[a.material], &n = saved.materials[b.material];
         EXPECT_EQ(m.baseColor, n.baseColor);
         EXPECT_EQ(m.dielectricF0, n.dielectricF0);

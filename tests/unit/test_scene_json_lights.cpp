@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -107,6 +108,12 @@ TEST_F(SceneJsonLights, EveryTypeArrivesAsWritten)
     EXPECT_EQ(l[1].influenceRadius, 8);
     EXPECT_EQ(l[1].layers, 0x8004u);
     EXPECT_EQ(l[2].layers, 0u);
+    EXPECT_TRUE(l[1].unshadowed);
+    EXPECT_EQ(l[1].unshadowedBy, 0b100010u);
+    EXPECT_FALSE(l[2].unshadowed);
+    EXPECT_EQ(l[2].unshadowedBy, 0u);
+    EXPECT_EQ(scene.analyticObjects[1].occluderLayer, 0u);
+    EXPECT_EQ(scene.analyticObjects[2].occluderLayer, 4u);
     EXPECT_EQ(scene.cameras[0].layers, 0x8001u);
     for (int c = 0; c < 3; ++c) // I = pi R^2 L
         EXPECT_NEAR(double(l[2].emission[c]) * pi * 0.01, 30 + 10 * c, 1e-4);
@@ -215,7 +222,7 @@ TEST_F(SceneJsonLights, EveryBadValueNamesItsKey)
         for (const auto& [key, value] : light.items()) {
             for (const char* bad : {"null", "{}", "[]", "\"x\"", "-1", "[1, 2]", "1e300",
                                     "[1e300, 0, 0]", "[0, 0, \"1\"]"}) {
-                if (key == "layers" && std::string(bad) == "[1, 2]")
+                if ((key == "layers" || key == "unshadowed_by") && std::string(bad) == "[1, 2]")
                     continue; // a valid value for this key
                 Json broken = light;
                 broken[key] = Json::parse(bad);
@@ -225,7 +232,9 @@ TEST_F(SceneJsonLights, EveryBadValueNamesItsKey)
             }
             Json without = light;
             without.erase(key);
-            if (key == "type" || key == "influence_radius" || key == "two_sided" || key == "layers")
+            const std::set<std::string> optional{"type",   "influence_radius", "two_sided",
+                                                 "layers", "unshadowed",       "unshadowed_by"};
+            if (optional.contains(key))
                 continue;
             EXPECT_NE(error(without).find("is missing"), std::string::npos) << key;
             Json more = light;
@@ -300,6 +309,10 @@ TEST_F(SceneJsonLights, ErrorsSayWhy)
            ".layers: must not be empty: leave it out for all layers");
     expect(R"({"position": [0, 1, 0], "radius": 1, "radiance": [1, 1, 1], "layers": [0, 16]})",
            ".layers[1]: must be an integer between 0 and 15, is 16");
+    expect(R"({"position": [0, 1, 0], "radius": 1, "radiance": [1, 1, 1], "unshadowed_by": []})",
+           ".unshadowed_by: must not be empty: leave it out for no layer");
+    expect(R"({"position": [0, 1, 0], "radius": 1, "radiance": [1, 1, 1], "unshadowed_by": [6]})",
+           ".unshadowed_by[0]: must be an integer between 0 and 5, is 6");
     // The widest possible spot.
     expect(R"({"type": "spot", "position": [0, 1, 0], "direction": [0, -1, 0],
                "inner_cone_degrees": 0, "outer_cone_degrees": 90, "intensity": [1, 1, 1]})",

@@ -37,8 +37,8 @@ std::string benchOutput(const std::string& directory, const std::string& option,
 void addBenchCommand(CLI::App& app, Run& run)
 {
     CLI::App* bench =
-        app.add_subcommand("bench", "Measure accuracy, stability, culling, skips, CPU time of "
-                                    "lights and compiled code");
+        app.add_subcommand("bench", "Measure accuracy, stability, culling, shadows, skips, "
+                                    "CPU time of lights and compiled code");
     bench->require_subcommand(1);
     bench->footer(
         "Examples:\n"
@@ -52,6 +52,7 @@ void addBenchCommand(CLI::App& app, Run& run)
     addBenchPipelines(*bench, run);
     addBenchSkip(*bench, run);
     addBenchStability(*bench, run);
+    addBenchVisibility(*bench, run);
 }
 
 } // namespace candelabra::app

@@ -15,6 +15,7 @@ void addBenchHost(CLI::App& bench, Run& run);
 void addBenchPipelines(CLI::App& bench, Run& run);
 void addBenchSkip(CLI::App& bench, Run& run);
 void addBenchStability(CLI::App& bench, Run& run);
+void addBenchVisibility(CLI::App& bench, Run& run);
 
 // Adds the options --out DIR and --json FILE, whose default is DIR/name.
 void addBenchOutput(CLI::App& command, std::string& directory, std::string& json,

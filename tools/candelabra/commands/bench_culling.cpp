@@ -15,6 +15,7 @@
 #include "measure/culling/culling.h"
 #include "render/provenance.h"
 #include "render/renderer.h"
+#include "render/setting_names.h"
 
 namespace candelabra::app
 {
@@ -25,6 +26,7 @@ struct CullingArguments {
     DeviceArguments device;
     std::string scenes = "hall,field,fence", lights = "1000,4000,16000,64000", overlaps = "8,30";
     std::string sizes = "1280x720", rounds = "6", seed = "1", bruteLimit = "60";
+    std::string shadows = "off";
     std::string directory = "out", json;
 };
 
@@ -42,6 +44,7 @@ CullingSettings settingsOf(const CullingArguments& a)
     s.lights = unsignedListOption("--lights", a.lights, 1, 1'000'000);
     s.overlaps = unsignedListOption("--overlaps", a.overlaps, 1, 10'000);
     s.rounds = unsignedOption("--rounds", a.rounds, 1, 10'000);
+    s.shadows = choose("--shadows", a.shadows, shadowChoices);
     s.seed = unsignedOption("--seed", a.seed, 0, UINT32_MAX);
     s.bruteLimit = numberOption("--brute-limit", a.bruteLimit, 0, 1e6);
     a.device.requireRoomFor(*std::max_element(s.lights.begin(), s.lights.end()));
@@ -93,6 +96,9 @@ void addBenchCulling(CLI::App& bench, Run& run)
               "rounds; each round draws the frame once in every way");
     addOption(*command, "--brute-limit", a->bruteLimit, "SECONDS",
               "skip brute force, and report an estimate, if a frame would take longer");
+    addChoice(*command, "--shadows", a->shadows, shadowChoices,
+              "draw the frame also with shadows, found for this many points of each light; the "
+              "other ways draw none");
     addOption(*command, "--seed", a->seed, "N", "seed of the scenes and lights");
     addBenchOutput(*command, a->directory, a->json, "bench_culling.json");
     a->device.addTo(*command);

@@ -11,8 +11,9 @@
 namespace candelabra::app
 {
 
-// Logs the warnings of the scene's loader, at most ten of them.
-void logWarnings(const Scene& scene);
+// Logs the warnings of the scene's loader, at most ten of them, and those about its shadows if it
+// is drawn with shadows.
+void logWarnings(const Scene& scene, bool shadows = false);
 
 // Says with which exposure a frame was drawn, and what helps if automatic exposure has reached an
 // end of its range. `given` tells whether --exposure has set the EV100.

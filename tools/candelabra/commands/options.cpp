@@ -271,7 +271,7 @@ void SceneArguments::warnOfIdleOptions(std::optional<uint32_t> lights) const
         warn("--seed", reason);
 }
 
-void FrameArguments::addViewTo(CLI::App& command)
+void FrameArguments::addPlaceTo(CLI::App& command)
 {
     addOption(command, "--size", size, "WxH",
               "image size in pixels; default: the scene's size, else 1280x720");
@@ -283,6 +283,11 @@ void FrameArguments::addViewTo(CLI::App& command)
               "metres, and vertical field of view in "
               "degrees; default: the scene's first, or the first automatic one if the file's own "
               "cameras show the scene less than half as wide and as high as the picture");
+}
+
+void FrameArguments::addViewTo(CLI::App& command)
+{
+    addPlaceTo(command);
     addChoice(command, "--lights-visible", lightsVisible, onOffChoices,
               "draw area lights as visible emitters (default: as the scene says)");
 }
@@ -308,10 +313,13 @@ void FrameArguments::addTo(CLI::App& command)
               "point of Karis 2013, and sampled takes random samples");
     addOption(command, "--samples", sampleCount, "N",
               "samples per light and pixel of --specular sampled (1..4096)");
+    addChoice(command, "--shadows", shadows, shadowChoices,
+              "soft shadows of everything opaque, found for this many points of each light; 64 "
+              "takes little longer than 32");
     addChoice(command, "--gbuffer", gbuffer, gbufferChoices, "layout of the G-buffer");
     addChoice(command, "--lod", lod, onOffChoices,
               "draw coarser levels of detail of meshes where that moves their surface by at most a "
-              "quarter of a pixel");
+              "quarter of a pixel; with shadows, full meshes are drawn, because these cast them");
     addChoice(command, "--cull-triangles", cullTriangles, onOffChoices,
               "on llvmpipe, drop triangles and visible lights that cover no pixel centre before "
               "they are rasterised; the picture stays the same");
@@ -340,10 +348,12 @@ void FrameArguments::addReuseTo(CLI::App& command, Reuse fallback)
 
 void FrameArguments::addDebugTo(CLI::App& command)
 {
-    addChoice(command, "--debug", heatMap, heatMapChoices,
-              "show in false colours what the lights cost each pixel, instead of the picture; "
-              "class shows whether a pixel uses the light list of its tile, that of a depth slice "
-              "of its tile, or none and walks the light tree");
+    addChoice(
+        command, "--debug", heatMap, heatMapChoices,
+        "show in false colours what the lights cost each pixel, instead of the picture; "
+        "class shows whether a pixel uses the light list of its tile, that of a depth slice "
+        "of its tile, or none and walks the light tree; shadow shows how much a pixel sees of "
+        "its lights, and needs --shadows");
 }
 
 void FrameArguments::addInfluenceTo(CLI::App& command)
@@ -434,6 +444,8 @@ HeatMap FrameArguments::heatMapMode() const
     const HeatMap out = choose("--debug", heatMap, heatMapChoices);
     if (out != HeatMap::None && cullingMode() != CND_CULLING_CLUSTERED)
         throw UsageError("--debug: shows the cost of lists, which needs --culling clustered");
+    if (out == HeatMap::Shadow && !choose("--shadows", shadows, shadowChoices))
+        throw UsageError("--debug shadow: there are no shadows; add --shadows 64");
     return out;
 }
 
@@ -469,6 +481,7 @@ FrameOptions FrameArguments::frameOptions() const
             .specular = specularMethod(),
             .sampleCount = unsignedOption("--samples", sampleCount, 1, 4096),
             .culling = cullingMode(),
+            .shadows = choose("--shadows", shadows, shadowChoices),
             .influence = influenceRule(),
             .reuse = choose("--reuse", reuse, reuseChoices),
             .heatMap = heatMapMode(),

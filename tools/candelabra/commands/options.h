@@ -44,9 +44,6 @@ struct LobeArguments {
     void applyTo(SceneOptions& options) const; // throws UsageError
 };
 
-// The values of --shadows. `truth`, which alone has the option so far, knows only off and on.
-inline constexpr Choice<uint32_t> shadowChoices[] = {{"off", 0}, {"32", 32}, {"64", 64}};
-
 // SCENE and the options that shape it. The number of lights is not among them, because `render`
 // takes one number and `stress` a list.
 struct SceneArguments {
@@ -75,7 +72,7 @@ struct SceneArguments {
 // The options of a frame.
 struct FrameArguments {
     std::string size, camera, fit;
-    std::string gbuffer = "full", specular, culling = "clustered";
+    std::string gbuffer = "full", specular, culling = "clustered", shadows = "off";
     std::string sampleCount = "64";
     std::string influence = "given", influenceError;
     std::string lightsVisible, reuse = "none", heatMap = "none", lod = "on", cullTriangles = "on";
@@ -83,6 +80,8 @@ struct FrameArguments {
     std::string middleGrey = "0.18";
 
     void addTo(CLI::App& command);
+    // Adds only the options of the place: size and camera.
+    void addPlaceTo(CLI::App& command);
     // Adds only the options of what is seen: size, camera and visible lights.
     void addViewTo(CLI::App& command);
     void addFitTo(CLI::App& command);

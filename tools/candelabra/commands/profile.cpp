@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // candelabra profile: measures the time of every pass of a frame, and whether one way of drawing it
 // is faster than another.
+#include <algorithm>
 #include <memory>
 
 #include <fmt/format.h>
@@ -69,6 +70,7 @@ struct ProfilePlan {
     std::vector<std::string> names;
     CndGBufferLayout gbufferLayout;
     ProfileSettings settings;
+    uint32_t shadows = 0; // of all variants that have shadows
 };
 
 ProfilePlan planProfile(const ProfileArguments& a)
@@ -110,6 +112,7 @@ ProfilePlan planProfile(const ProfileArguments& a)
     if (a.ab.empty()) {
         p.names = {"frame"};
         p.settings.variants = {a.frame.frameOptions()};
+        p.shadows = p.settings.variants[0].shadows;
         return p;
     }
     if (p.settings.rounds < minPairs)
@@ -120,6 +123,10 @@ ProfilePlan planProfile(const ProfileArguments& a)
     p.names = {"A", "B"};
     for (const std::string& text : a.ab)
         p.settings.variants.push_back(variantOptions(a.frame, text));
+    const uint32_t first = p.settings.variants[0].shadows, second = p.settings.variants[1].shadows;
+    if (first && second && first != second)
+        throw UsageError("--ab: both have shadows, which must be found for as many points");
+    p.shadows = std::max(first, second);
     return p;
 }
 
@@ -184,7 +191,7 @@ int profile(const ProgramContext& program, const ProfileArguments& a)
     a.scene.warnOfIdleOptions(p.scene.lights);
     a.device.requireRoomFor(p.scene.lights.value_or(0));
     const Scene scene = loadScene(a.scene.scene, p.scene);
-    logWarnings(scene);
+    logWarnings(scene, p.shadows > 0);
     requireSomethingToDraw(scene, a.scene.scene);
     const Camera camera = selectCamera(scene, a.frame.camera);
     const PixelSize size = a.frame.pixelSize(scene, camera);
@@ -207,6 +214,7 @@ int profile(const ProgramContext& program, const ProfileArguments& a)
                        .gbufferLayout = p.gbufferLayout,
                        .framesInFlight = p.settings.framesInFlight,
                        .specularMethods = methods,
+                       .shadows = p.shadows,
                        .influenceByError = byError,
                        .stamps = true});
     Profile result;
@@ -286,7 +294,8 @@ void addProfileCommand(CLI::App& app, Run& run)
         "  candelabra profile hall --path turn --frames 120 --csv frames.csv\n"
         "  candelabra profile hall --warm-up 2 --frames-in-flight 2 --frames 200\n"
         "  candelabra profile hall --light-costs 20\n"
-        "  candelabra profile hall --ab '--specular karis' '--specular conic'");
+        "  candelabra profile hall --ab '--specular karis' '--specular conic'\n"
+        "  candelabra profile rooms --ab '--shadows off' '--shadows 64'");
     command->callback(
         [&run, a] { run = [a](const ProgramContext& program) { return profile(program, *a); }; });
 }

@@ -89,7 +89,7 @@ void requireOutputs(const RenderArguments& a)
         throw UsageError("--json " + a.json + ": -o writes this file");
 }
 
-std::optional<PixelPosition> pickedPixel(const RenderArguments& a)
+std::optional<PixelPosition> pickedPixel(const RenderArguments& a, const FrameOptions& frame)
 {
     if (a.pick.empty())
         return std::nullopt;
@@ -99,7 +99,7 @@ std::optional<PixelPosition> pickedPixel(const RenderArguments& a)
         comma == std::string::npos ? std::nullopt : parseUnsigned(a.pick.substr(comma + 1));
     if (!x || !y || *x >= maxSide || *y >= maxSide)
         throw UsageError("--pick \"" + a.pick + "\": expected X,Y in pixels such as 640,360");
-    const std::string refusal = pickRefusal(a.frame.specularMethod(), a.frame.influenceRule().rule);
+    const std::string refusal = pickRefusal(frame);
     if (!refusal.empty())
         throw UsageError("--pick: " + refusal);
     return PixelPosition{uint32_t(*x), uint32_t(*y)};
@@ -171,7 +171,19 @@ RenderPlan planRender(const RenderArguments& a)
             .sequence = sequence,
             .path = choose("--path", a.path, cameraPathChoices),
             .interval = 1 / numberOption("--fps", a.fps, 0.01, 1000),
-            .pick = pickedPixel(a)};
+            .pick = pickedPixel(a, frame)};
+}
+
+// The statistics of the last frame, with its pairs counted if it has lists.
+CndLightingStats countedStats(const RenderPlan& p, const VulkanContext& context, Renderer& renderer,
+                              const MeasuredFrames& frames)
+{
+    if (p.frame.culling != CND_CULLING_CLUSTERED)
+        return frames.last.lighting;
+    FrameOptions again = p.frame;
+    again.exposure.manual = VK_TRUE; // so that counting does not change the adapted exposure
+    again.exposure.manualEv100 = frames.last.exposure.adaptedEv100;
+    return countPairs(context, renderer, again);
 }
 
 Json renderJson(const ProgramContext& program, const RenderArguments& a, const RenderPlan& p,
@@ -180,12 +192,7 @@ Json renderJson(const ProgramContext& program, const RenderArguments& a, const R
                 const std::optional<InfluenceCheck>& cut)
 {
     const PixelSize size = renderer.size();
-    FrameOptions again = p.frame;
-    again.exposure.manual = VK_TRUE; // so that counting does not change the adapted exposure
-    again.exposure.manualEv100 = frames.last.exposure.adaptedEv100;
-    const CndLightingStats lighting = p.frame.culling == CND_CULLING_CLUSTERED
-                                          ? countPairs(context, renderer, again)
-                                          : frames.last.lighting;
+    const CndLightingStats lighting = countedStats(p, context, renderer, frames);
     Json out{{"schema", "candelabra render 1"},
              {"provenance", provenance(context.info(), program.commandLine)},
              {"scene", sceneJson(scene, renderer)},
@@ -222,8 +229,11 @@ int reportLastFrame(const ProgramContext& program, const RenderArguments& a, con
         if (a.json != "-")
             writeText("-", influenceText(*cut));
     }
-    if (a.explain && a.json != "-")
+    if (a.explain && a.json != "-") {
         writeText("-", planText(frames.last));
+        if (p.frame.shadows)
+            writeText("-", shadowText(countedStats(p, context, renderer, frames), renderer.size()));
+    }
     if (a.json != "-" && !program.quiet && frames.times.frames())
         writeText("-", passTable(frames.times));
     if (!a.json.empty())
@@ -233,13 +243,15 @@ int reportLastFrame(const ProgramContext& program, const RenderArguments& a, con
 
 // Says what will be rendered. `onCpu`: a picture has one sample because the device is a CPU.
 void printScene(const Scene& scene, PixelSize size, const VulkanContext& context, uint32_t samples,
-                bool onCpu)
+                bool shadows, bool onCpu)
 {
     spdlog::info("{}: {}, {}, {}x{}, {}, on {}", scene.name, counted(scene.lights.size(), "light"),
                  counted(scene.instances.size() + scene.analyticObjects.size(), "object"),
                  size.width, size.height,
                  samples > 1 ? fmt::format("{} samples per pixel", samples) : "1 sample per pixel",
                  context.info().name);
+    if (!shadows)
+        spdlog::info("shadows are off; --shadows 64 turns them on");
     if (onCpu)
         spdlog::info("edges are not smooth: the device is a CPU, where --aa {} takes {} times as "
                      "long; --edge-filter is faster",
@@ -287,7 +299,7 @@ int render(const ProgramContext& program, const RenderArguments& a)
     a.scene.warnOfIdleOptions(p.scene.lights);
     a.device.requireRoomFor(p.scene.lights.value_or(0));
     const Scene scene = loadScene(a.scene.scene, p.scene);
-    logWarnings(scene);
+    logWarnings(scene, p.frame.shadows > 0);
     requireSomethingToDraw(scene, a.scene.scene);
     const Camera first = a.frame.chosenCamera(scene);
     p.frame.camera = first;
@@ -304,12 +316,13 @@ int render(const ProgramContext& program, const RenderArguments& a)
     const VulkanContext context(a.device.contextOptions());
     const bool isGpu = context.info().type != VK_PHYSICAL_DEVICE_TYPE_CPU;
     p.counts.samples = p.samples.value_or(isGpu ? pictureSamples : 1);
-    printScene(scene, size, context, p.counts.samples, !p.samples && !isGpu);
+    printScene(scene, size, context, p.counts.samples, p.frame.shadows > 0, !p.samples && !isGpu);
     Renderer renderer(context, scene,
                       {.size = size,
                        .gbufferLayout = p.gbufferLayout,
                        .specularMethods = 1u << p.frame.specular,
                        .shading = shadingOf(p.frame),
+                       .shadows = p.frame.shadows,
                        .influenceByError = p.frame.influence.rule == CND_INFLUENCE_BY_ERROR});
     const bool moving = !scene.lightMotions.empty() || p.path != CameraPath::Still;
     const MeasuredFrames frames = drawFrames(program, a, p, first, moving, context, renderer);
@@ -368,7 +381,8 @@ void addRenderCommand(CLI::App& app, Run& run)
               "JSON file with times, statistics and their provenance; - is standard output");
     addOption(*command, "--pick", a->pick, "X,Y",
               "list the lights of the pixel X,Y, counted from the left and the top, with the "
-              "contribution of each and its error against the reference in double precision");
+              "contribution of each and its error against the reference in double precision; with "
+              "shadows, also which share of it is visible there, and what hides it");
     command->add_flag(
         "--explain", a->explain,
         "list the passes that the last frame ran, and explain why the others had nothing to do");
@@ -387,6 +401,8 @@ void addRenderCommand(CLI::App& app, Run& run)
                     "  candelabra render hall --pick 640,360\n"
                     "  candelabra render hall --size 320x180 --influence-error 0.5/255 -o cut.png\n"
                     "  candelabra render hall --debug efficiency --explain -o heat.png\n"
+                    "  candelabra render rooms --shadows 64 -o shadows.png\n"
+                    "  candelabra render rooms --shadows 64 --debug shadow -o seen.png\n"
                     "  candelabra render hall --aa 64 --size 1920x1080 -o smooth.png\n"
                     "  candelabra render hall --path turn --frames 240 -o f.%04d.png\n"
                     "  ffmpeg -framerate 60 -i f.%04d.png -pix_fmt yuv420p turn.mp4");

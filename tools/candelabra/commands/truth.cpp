@@ -23,6 +23,7 @@
 #include "reference/render.h"
 #include "render/camera.h"
 #include "render/readback.h"
+#include "render/setting_names.h"
 #include "truth/reference_scene.h"
 #include "truth/truth_file.h"
 
@@ -161,8 +162,8 @@ Scene sceneOf(const TruthArguments& a, bool shadows)
     options.imageAspect = a.frame.imageAspect();
     a.scene.warnOfIdleOptions(options.lights);
     Scene scene = loadScene(a.scene.scene, options);
-    logWarnings(scene);
-    for (const std::string& text : leftOutByReference(scene, shadows))
+    logWarnings(scene, shadows);
+    for (const std::string& text : leftOutByReference(scene))
         spdlog::warn("warning: {}: {}", scene.name, text);
     lightsAtTime(scene, 0, scene.lights);
     return scene;
@@ -253,12 +254,12 @@ void addTruthCommand(CLI::App& app, Run& run)
         ->type_name("FILE...");
     command->footer(
         "Every pixel is evaluated at its centre, as in `candelabra render`. Materials have\n"
-        "no textures here, environments add no light, and `render` draws no shadows yet.\n"
-        "Apart from that, differences between the two images are errors of the specular\n"
-        "method and, at meshes, of levels of detail. With conic they are largest where a\n"
-        "light crosses the horizon of a surface that is seen at a grazing angle.\n\n"
-        "Shadows are those of opaque meshes, planes and balls, cast from both of their sides;\n"
-        "lights cast none. Where a light is hidden in part, 4,096 stratified points of its\n"
+        "no textures here, and environments add no light. Apart from that, differences between\n"
+        "the two images are errors of the specular method and of shadows and, at meshes, of\n"
+        "levels of detail. With conic they are largest where a light crosses the horizon of a\n"
+        "surface that is seen at a grazing angle.\n\n"
+        "Surfaces cast shadows as in `candelabra render`, from both of their sides; lights cast\n"
+        "none. Where a light is hidden in part, 4,096 stratified points of its\n"
         "emitter decide, doubled until the pixel changes by less than 0.1%, up to 65,536.\n\n"
         "Examples:\n"
         "  candelabra truth scene.json -o truth.exr\n"

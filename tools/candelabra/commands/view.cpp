@@ -79,8 +79,10 @@ int view(const ViewArguments& a)
         loader.start(std::move(request));
         const bool interactive = !options.frames;
         if (auto first = waitForFirstScene(screen, loader, interactive)) {
-            logWarnings(first->scene);
+            logWarnings(first->scene, options.frame.shadows > 0);
             Viewer viewer(options, screen, loader, std::move(first));
+            if (!options.frame.shadows)
+                spdlog::info("shadows are off; --shadows 64 turns them on");
             spdlog::info("on {}; F2 lists keys and mouse", screen.context.info().name);
             viewer.run();
         }
@@ -125,7 +127,7 @@ void addViewCommand(CLI::App& app, Run& run)
         "everything changes.\n\n"
         "Examples:\n"
         "  candelabra view hall --lights 4000 --moving\n"
-        "  candelabra view model.glb --lights 200\n"
+        "  candelabra view model.glb --lights 200 --shadows 32\n"
         "  xvfb-run -a candelabra view hall --frames 30 --screenshot view.png");
     command->callback([&run, a] { run = [a](const ProgramContext&) { return view(*a); }; });
 }

@@ -12,6 +12,7 @@
 #include "gltf/emissive.h"
 #include "gltf/gltf.h"
 #include "gltf/instancing.h"
+#include "gltf/lamp_bodies.h"
 #include "gltf/lights.h"
 #include "gltf/material.h"
 #include "gltf/mesh.h"
@@ -304,6 +305,7 @@ void SceneBuilder::finish()
     emissive_.warn(document_);
     scene_.lights = std::move(lights_.lights);
     placeLights(scene_, lights_.positions);
+    findLampBodies(scene_, lights_.positions);
     if (scene_.lights.empty() && !options_.lights && !options_.defaultLight)
         document_.warn("", "has no lights; --lights N adds some");
 }

@@ -31,13 +31,12 @@ glm::dvec3 toVec3(const float (&v)[3])
     return {v[0], v[1], v[2]};
 }
 
-// Adds the numbers of the layers as the loader reads them. Nothing is added for a mask of 0, which
-// stands for all layers.
-void addLayers(Json& json, uint32_t layers)
+// Adds the numbers of the layers as the loader reads them. Nothing is added for a mask of 0.
+void addLayers(Json& json, uint32_t layers, const char* key = "layers")
 {
     for (uint32_t i = 0; i < CND_LAYER_COUNT; ++i)
         if (layers & 1u << i)
-            json["layers"].push_back(i);
+            json[key].push_back(i);
 }
 
 Json cameraJson(const Camera& camera)
@@ -80,6 +79,8 @@ Json objectsJson(const Scene& scene)
             o.type == AnalyticObject::Type::Plane
                 ? Json{{"type", "plane"}, {"point", toJson(o.point)}, {"normal", toJson(o.normal)}}
                 : Json{{"type", "sphere"}, {"center", toJson(o.point)}, {"radius", o.radius}};
+        if (o.occluderLayer)
+            object["occluder_layer"] = o.occluderLayer;
         object["material"] = materialJson(scene.materials[o.material]);
         out.push_back(object);
     }
@@ -134,6 +135,9 @@ Json lightJson(const CndLight& light, const glm::dvec3& origin)
     if (!cndIsDistant(light.type) && std::isfinite(light.influenceRadius))
         out["influence_radius"] = light.influenceRadius;
     addLayers(out, light.layers);
+    if (light.unshadowed)
+        out["unshadowed"] = true;
+    addLayers(out, light.unshadowedBy, "unshadowed_by");
     return out;
 }
 

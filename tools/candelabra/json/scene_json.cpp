@@ -130,18 +130,20 @@ AnalyticObject readObject(const JsonValue& json)
     AnalyticObject object;
     const JsonValue type = json.member("type");
     if (type.string() == "plane") {
-        json.refuseOtherKeys({"type", "point", "normal", "material"});
+        json.refuseOtherKeys({"type", "point", "normal", "material", "occluder_layer"});
         object.type = AnalyticObject::Type::Plane;
         object.point = json.member("point").vector3(coordinate);
         object.normal = direction(json.member("normal"));
     } else if (type.string() == "sphere") {
-        json.refuseOtherKeys({"type", "center", "radius", "material"});
+        json.refuseOtherKeys({"type", "center", "radius", "material", "occluder_layer"});
         object.type = AnalyticObject::Type::Ball;
         object.point = json.member("center").vector3(coordinate);
         object.radius = json.member("radius").number(NumberRange::positive(maxCoordinate));
     } else {
         type.fail("must be \"plane\" or \"sphere\", is \"" + printable(type.string(), 60) + "\"");
     }
+    if (const auto layer = json.find("occluder_layer"))
+        object.occluderLayer = uint32_t(layer->integer(0, CND_OCCLUDER_LAYER_COUNT - 1));
     return object;
 }
 

@@ -42,7 +42,7 @@ uint32_t typeOf(const JsonValue& json)
 
 void refuseOtherKeys(const JsonValue& json, uint32_t type)
 {
-    std::vector<std::string> known{"type", "layers"};
+    std::vector<std::string> known{"type", "layers", "unshadowed", "unshadowed_by"};
     for (const LightKey& key : lightTypeInfo(type).keys)
         known.push_back(key.name);
     if (!cndIsDistant(type))
@@ -231,6 +231,10 @@ CndLight readLight(const JsonValue& json, glm::dvec3& position, Scene& scene,
     }
     if (const auto layers = json.find("layers"))
         light.layers = readLayers(*layers);
+    if (const auto unshadowed = json.find("unshadowed"))
+        light.unshadowed = unshadowed->boolean();
+    if (const auto layers = json.find("unshadowed_by"))
+        light.unshadowedBy = readLayers(*layers, CND_OCCLUDER_LAYER_COUNT, "no layer");
     readInfluence(json, light);
     readEmission(json, light);
     return light;
@@ -238,14 +242,14 @@ CndLight readLight(const JsonValue& json, glm::dvec3& position, Scene& scene,
 
 } // namespace
 
-uint32_t readLayers(const JsonValue& json)
+uint32_t readLayers(const JsonValue& json, uint32_t count, const char* otherwise)
 {
     json.requireArray();
     if (json.size() == 0)
-        json.fail("must not be empty: leave it out for all layers");
+        json.fail(std::string("must not be empty: leave it out for ") + otherwise);
     uint32_t layers = 0;
     for (size_t i = 0; i < json.size(); ++i)
-        layers |= 1u << json.item(i).integer(0, CND_LAYER_COUNT - 1);
+        layers |= 1u << json.item(i).integer(0, count - 1);
     return layers;
 }
 

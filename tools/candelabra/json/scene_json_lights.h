@@ -14,6 +14,11 @@
 // "intensity" is in cd: for a sphere in the far field, for a spot on its axis. "illuminance" is in
 // lx, on a surface that faces the light. Any light may have "layers", the numbers of its layers,
 // such as [0, 3] (default: all).
+//
+// Of shadows, "unshadowed" is true for a light that nothing shadows (default: false), and
+// "unshadowed_by" are the numbers of the occluder layers that do not shadow it, such as [1]
+// (default: none). Objects have an "occluder_layer" (default: 0). In meshes of a glTF source, the
+// bodies of the file's own lamps have layer 1 (gltf/lamp_bodies.h).
 #pragma once
 
 #include "scene/json_value.h"
@@ -26,8 +31,10 @@ namespace candelabra::app
 // The valid coordinates and lengths.
 inline constexpr NumberRange coordinate{-maxCoordinate, maxCoordinate};
 
-// Reads layer numbers such as [0, 3] as the mask CndLight::layers. Throws SceneError.
-uint32_t readLayers(const JsonValue& json);
+// Reads the numbers of layers below `count`, such as [0, 3], as a mask. Without the key the mask
+// would stand for `otherwise`. Throws SceneError.
+uint32_t readLayers(const JsonValue& json, uint32_t count = CND_LAYER_COUNT,
+                    const char* otherwise = "all layers");
 
 // Appends the lights of the array `list` to the scene's and places them (light_placement.h). Throws
 // SceneError.

@@ -85,11 +85,14 @@ StressPoint measureStressPoint(const VulkanContext& context, const StressSetting
     frame.lightsVisible = settings.lightsVisible.value_or(scene.lightsVisible);
     const RendererOptions rendererOptions{.size = settings.size,
                                           .gbufferLayout = settings.gbufferLayout,
-                                          .specularMethods = 1u << settings.frame.specular};
+                                          .specularMethods = 1u << settings.frame.specular,
+                                          .shadows = settings.frame.shadows};
     Renderer renderer(context, scene, rendererOptions);
     progress.advance(secondsToBuild);
 
-    StressPoint out{.lights = uint32_t(scene.lights.size()), .scene = sceneJson(scene, renderer)};
+    StressPoint out{.lights = uint32_t(scene.lights.size()),
+                    .size = settings.size,
+                    .scene = sceneJson(scene, renderer)};
     progress.doing(label + ": timing");
     const MeasuredFrames frames =
         renderFrames(context, renderer, frame, settings.counts, !scene.lightMotions.empty(),
@@ -168,6 +171,15 @@ std::string listTable(const std::vector<StressPoint>& points)
            "tiles, every slice of depth.\nClusters without a list walk the light tree instead.\n";
 }
 
+std::string shadowLines(const std::vector<StressPoint>& points)
+{
+    std::string out;
+    for (const StressPoint& p : points)
+        if (const std::string line = shadowText(p.stats, p.size); !line.empty())
+            out += counted(p.lights, "light") + ": " + line;
+    return out;
+}
+
 std::string checkTable(const std::vector<StressPoint>& points)
 {
     Table table({"lights", "GPU ms per frame", "brute force ms", "pixels compared",
@@ -234,7 +246,7 @@ std::string stressTables(const std::vector<StressPoint>& points)
     for (const StressPoint& p : points)
         out += fmt::format("{}, GPU time per pass over {}\n{}\n", counted(p.lights, "light"),
                            counted(p.times.frames(), "frame"), passTable(p.times));
-    return out + "Lists and (pixel, light) pairs\n" + listTable(points) +
+    return out + "Lists and (pixel, light) pairs\n" + listTable(points) + shadowLines(points) +
            "\nAgainst brute force, and between two runs\n" + checkTable(points);
 }
 

@@ -30,6 +30,7 @@ struct StressSettings {
 
 struct StressPoint {
     uint32_t lights = 0;
+    PixelSize size;
     PassTimes times;
     CndLightingStats stats{}; // including counted pairs
     CndExposureStats exposure{};

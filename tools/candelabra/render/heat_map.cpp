@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -24,6 +25,16 @@ const LegendEntry pixelClasses[gpu::HEAT_MAP_CLASSES] = {
     {viridis(0.25f), "one list per tile"},
     {viridis(0.6f), "a list per slice of depth"},
     {viridis(1), "no list, walks the light tree"}};
+
+const LegendEntry visibilities[gpu::HEAT_MAP_CLASSES] = {{glm::vec3(0.2f), "asks for no light"},
+                                                         {viridis(1), "lights seen wholly"},
+                                                         {viridis(0.6f), "lights seen in part"},
+                                                         {viridis(0), "lights not seen at all"}};
+
+std::span<const LegendEntry> classesOf(HeatMap which)
+{
+    return which == HeatMap::Shadow ? visibilities : pixelClasses;
+}
 
 Legend logarithmicLegend(const char* title, uint32_t scale)
 {
@@ -48,6 +59,9 @@ Legend heatMapLegend(HeatMap which, PixelSize size)
         return barLegend("lights that contribute, of those listed",
                          {{0, "0%"}, {0.25f, "25%"}, {0.5f, "50%"}, {0.75f, "75%"}, {1, "100%"}},
                          scale);
+    case HeatMap::Shadow:
+        return listLegend("shares of the lights of a pixel",
+                          {std::begin(visibilities), std::end(visibilities)}, scale);
     default:
         return listLegend("where a pixel finds its lights",
                           {std::begin(pixelClasses), std::end(pixelClasses)}, scale);
@@ -70,7 +84,7 @@ HeatMapPass::HeatMapPass(const gpu::Device& device, PixelSize size, uint32_t fra
         std::vector<uint32_t> all;
         for (uint32_t step = 0; step < gpu::HEAT_MAP_STEPS; ++step)
             all.push_back(packed(viridis(float(step) / float(gpu::HEAT_MAP_STEPS - 1))));
-        for (const LegendEntry& c : pixelClasses)
+        for (const LegendEntry& c : classesOf(HeatMap(i)))
             all.push_back(packed(c.colour));
         all.insert(all.end(), legend.pixels.begin(), legend.pixels.end());
         colours_[i] = {gpu::createBuffer(device, "heat map colours", all.size() * sizeof all[0],

@@ -16,9 +16,10 @@ enum class HeatMap : uint32_t {
     // Lights evaluated, including loop turns in which the pixel waits for its neighbours.
     Evaluated = gpu::HEAT_MAP_EVALUATED,
     Efficiency = gpu::HEAT_MAP_EFFICIENCY, // the share of the listed lights that contribute
-    PixelClass = gpu::HEAT_MAP_CLASS       // CndPixelClass
+    PixelClass = gpu::HEAT_MAP_CLASS,      // CndPixelClass
+    Shadow = gpu::HEAT_MAP_SHADOW          // how much the pixel sees of the lights; needs shadows
 };
-constexpr int heatMapCount = 5; // including None
+constexpr int heatMapCount = 6; // including None
 
 class HeatMapPass
 {
@@ -26,6 +27,7 @@ public:
     // `device` must outlive the pass.
     HeatMapPass(const gpu::Device& device, PixelSize size, uint32_t framesInFlight);
 
+    // The target of CndLightingFrame::pairImage or, for HeatMap::Shadow, of its shadowImage.
     VkImageView pairs() const { return pairs_.view.get(); }
     const gpu::Image& pairImage() const { return pairs_; } // in GENERAL; may be copied from
     // Sets the pair image to 0 for the frame that is recorded next.

@@ -20,6 +20,7 @@
 #include "render/pipeline_watch.h"
 #include "render/scene_environment.h"
 #include "render/scene_geometry.h"
+#include "render/scene_occluders.h"
 #include "scene/light_layers.h"
 
 namespace candelabra::app
@@ -68,7 +69,8 @@ CndLightingDesc lightingDesc(const Scene& scene, const RendererOptions& o)
             .shading = o.shading,
             .diffuseOnlyTiles = hasDiffuseOnlySurfaces(scene, materialsOf(scene, o)),
             .lightTypes = o.lightTypes ? *o.lightTypes : lightTypesOf(scene),
-            .influenceByError = o.influenceByError};
+            .influenceByError = o.influenceByError,
+            .shadows = {.points = o.shadows}};
 }
 
 CndExposureDesc exposureDesc(const RendererOptions& o)
@@ -165,6 +167,7 @@ struct LitImageKey {
     CndSpecularMethod specular;
     uint32_t sampleCount, sampleSeed;
     CndCulling culling;
+    uint32_t shadows;
     CndInfluenceRule influence;
     float influenceError, influenceExposure; // of CND_INFLUENCE_BY_ERROR
     CndToneMap influenceToneMap;
@@ -319,6 +322,8 @@ Renderer::Renderer(const VulkanContext& context, const Scene& scene, const Rende
         if (lighting.specularMethods >> method & 1)
             s.shading[method] = options.shading;
     s.lighting = valueOrThrow(Lighting::create(context.desc(), lighting));
+    if (options.shadows)
+        addOccluders(s.lighting, scene, materialsOf(scene, options));
     s.exposure = valueOrThrow(Exposure::create(context.desc(), exposureDesc(options)));
     if (scene.environment)
         s.environment = uploadEnvironment(
@@ -413,7 +418,7 @@ void Renderer::State::recordGBuffer(VkCommandBuffer cmd, uint32_t slot, const Fr
                     .width = options.size.width,
                     .height = options.size.height,
                     .cullTriangles = frame.cullTriangles,
-                    .maxLevelError = frame.levels ? gbuffer::defaultMaxLevelError : 0,
+                    .maxLevelError = frame.drawsLevels() ? gbuffer::defaultMaxLevelError : 0,
                     .coverageFrame = frame.sample.index,
                     .drawEmitters = frame.lightsVisible});
     if (environment.get())
@@ -441,6 +446,7 @@ CndLightingFrame Renderer::State::lightingFrame(uint32_t slot, const FrameOption
     out.culling = frame.culling;
     out.influence = influenceOf(slot, frame);
     out.countPairs = frame.countPairs;
+    out.shadowsOff = frame.shadows == 0;
     out.layers = frame.camera.layers;
     return out;
 }
@@ -471,10 +477,10 @@ CndInfluence Renderer::State::influenceOf(uint32_t slot, const FrameOptions& fra
 LitImageKey Renderer::State::litImageKey(uint32_t slot, const FrameOptions& f) const
 {
     const CndInfluence influence = influenceOf(slot, f);
-    return {f.camera,         f.sample,       lightTime,          f.lightsVisible,
-            f.levels,         f.specular,     f.sampleCount,      f.sampleSeed,
-            f.culling,        influence.rule, influence.maxError, influence.exposure,
-            influence.toneMap};
+    return {f.camera,           f.sample,         lightTime,      f.lightsVisible,
+            f.drawsLevels(),    f.specular,       f.sampleCount,  f.sampleSeed,
+            f.culling,          f.shadows,        influence.rule, influence.maxError,
+            influence.exposure, influence.toneMap};
 }
 
 void Renderer::moveLights(double time)
@@ -508,7 +514,8 @@ void Renderer::record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& fr
         if (frame.heatMap != HeatMap::None) {
             s.heatMaps->recordClear(cmd);
             lighting.countPairs = VK_TRUE;
-            lighting.pairImage = s.heatMaps->pairs();
+            (frame.heatMap == HeatMap::Shadow ? lighting.shadowImage : lighting.pairImage) =
+                s.heatMaps->pairs();
         }
         valueOrThrow(s.view.record(cmd, lighting));
         s.drawn = lit;

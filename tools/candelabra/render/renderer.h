@@ -30,6 +30,8 @@ struct RendererOptions {
     // the first frame that needs it, which then takes longer to record.
     uint32_t specularMethods = 1u << CND_SPECULAR_CONIC;
     uint32_t shading = CND_SHADING_CLUSTERED_BIT;
+    // How many points of each light shadows are found for: 0 (no shadows), 32 or 64.
+    uint32_t shadows = 0;
     bool influenceByError = false; // FrameOptions::influence may be CND_INFLUENCE_BY_ERROR
     // Measures FrameStats::gpuMs, and when passes begin, with four more timestamps per frame.
     bool stamps = false;
@@ -71,6 +73,7 @@ struct FrameOptions {
     uint32_t sampleCount = 0; // of CND_SPECULAR_SAMPLED; 0: the module's default
     uint32_t sampleSeed = 0;
     CndCulling culling = CND_CULLING_CLUSTERED;
+    uint32_t shadows = 0; // 0, or RendererOptions::shadows
     // The renderer fills in the exposure and the tone map. The exposure is the manual one, or that
     // of the previous frame in the same slot; in a slot's first frame no light is cut.
     CndInfluence influence{};
@@ -85,6 +88,8 @@ struct FrameOptions {
     bool edgeFilter = false;
     CndExposureSettings exposure{}; // Scene::exposureCompensation is added
 
+    // Coarser levels lie in part below the full meshes, which cast the shadows, and would be dark.
+    bool drawsLevels() const { return levels && !shadows; }
     bool operator==(const FrameOptions&) const = default;
 };
 

@@ -22,16 +22,17 @@ inline constexpr Choice<CndSpecularMethod> specularChoices[] = {
 };
 inline constexpr Choice<CndCulling> cullingChoices[] = {{"clustered", CND_CULLING_CLUSTERED},
                                                         {"brute", CND_CULLING_BRUTE}};
+// The points of each light for which shadows are found.
+inline constexpr Choice<uint32_t> shadowChoices[] = {{"off", 0}, {"32", 32}, {"64", 64}};
 // CND_INFLUENCE_BY_ERROR is chosen by an option of its own, which holds the error.
 inline constexpr Choice<CndInfluenceRule> influenceChoices[] = {{"given", CND_INFLUENCE_GIVEN},
                                                                 {"uncut", CND_INFLUENCE_UNCUT}};
 inline constexpr Choice<Reuse> reuseChoices[] = {
     {"none", Reuse::None}, {"lists", Reuse::Lists}, {"lighting", Reuse::Lighting}};
-inline constexpr Choice<HeatMap> heatMapChoices[] = {{"none", HeatMap::None},
-                                                     {"lights-per-pixel", HeatMap::LightsPerPixel},
-                                                     {"evaluated", HeatMap::Evaluated},
-                                                     {"efficiency", HeatMap::Efficiency},
-                                                     {"class", HeatMap::PixelClass}};
+inline constexpr Choice<HeatMap> heatMapChoices[] = {
+    {"none", HeatMap::None},           {"lights-per-pixel", HeatMap::LightsPerPixel},
+    {"evaluated", HeatMap::Evaluated}, {"efficiency", HeatMap::Efficiency},
+    {"class", HeatMap::PixelClass},    {"shadow", HeatMap::Shadow}};
 inline constexpr Choice<CndGBufferLayout> gbufferChoices[] = {{"full", CND_GBUFFER_FULL},
                                                               {"compact", CND_GBUFFER_COMPACT}};
 inline constexpr Choice<CndToneMap> toneMapChoices[] = {{"none", CND_TONEMAP_NONE},
@@ -69,6 +70,10 @@ inline CndSpecularMethod nextSpecular(CndSpecularMethod method)
 inline const char* cullingName(CndCulling culling)
 {
     return nameOf(culling, cullingChoices);
+}
+inline const char* shadowsName(uint32_t points)
+{
+    return nameOf(points, shadowChoices);
 }
 inline const char* influenceName(CndInfluenceRule rule)
 {

@@ -86,6 +86,7 @@ struct Instance {
     uint32_t mesh = 0;
     uint32_t material = 0;
     glm::dmat4 worldFromObject{1};
+    uint32_t occluderLayer = 0; // as CndOccluderInstance::occluderLayer
 };
 
 // A run of Scene::instances.
@@ -110,6 +111,7 @@ struct AnalyticObject {
     glm::dvec3 normal{0, 1, 0}; // plane: unit vector; not used for a ball
     double radius = 1;          // ball: metres; not used for a plane
     uint32_t material = 0;
+    uint32_t occluderLayer = 0; // as CndOccluderInstance::occluderLayer
 };
 
 struct Camera {

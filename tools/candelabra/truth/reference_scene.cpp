@@ -9,6 +9,7 @@
 #include "io/hash.h"
 #include "scene/fit_camera.h"
 #include "scene/light_layers.h"
+#include "scene/shadow_casters.h"
 
 namespace candelabra::app
 {
@@ -82,8 +83,9 @@ void addTriangles(const Scene& scene, const Instance& instance,
     const Mesh& mesh = scene.meshes[instance.mesh];
     for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         reference::Triangle triangle{.material = instance.material,
+                                     .occluderLayer = instance.occluderLayer,
                                      .twoSided = material.doubleSided,
-                                     .blocks = material.alphaMode == AlphaMode::Opaque};
+                                     .blocks = castsShadow(scene, material, mesh, i / 3)};
         for (size_t k = 0; k < 3; ++k) {
             // Mirroring turns the order of corners.
             const size_t corner = determinant < 0 ? 2 - k : k;
@@ -100,7 +102,7 @@ void addTriangles(const Scene& scene, const Instance& instance,
 } // namespace
 
 reference::Scene toReference(const Scene& scene, const Camera& camera, double imageAspect,
-                             bool lightsVisible)
+                             bool lightsVisible, std::vector<uint32_t>* instances)
 {
     reference::Scene out;
     const Camera whole = cameraOfPicture(camera, imageAspect);
@@ -119,10 +121,16 @@ reference::Scene toReference(const Scene& scene, const Camera& camera, double im
                                .point = object.point,
                                .normal = object.normal,
                                .radius = object.radius,
-                               .material = object.material});
-    for (const Instance& instance : scene.instances)
-        addTriangles(scene, instance, out.triangles);
+                               .material = object.material,
+                               .occluderLayer = object.occluderLayer});
+    for (uint32_t i = 0; i < scene.instances.size(); ++i) {
+        addTriangles(scene, scene.instances[i], out.triangles);
+        if (instances)
+            instances->resize(out.triangles.size(), i);
+    }
     out.lights = lightsShown(scene.lights, camera);
+    for (const CndLight& light : out.lights)
+        out.ignoredLayers.push_back(light.unshadowed ? ~0u : light.unshadowedBy);
     out.lightOrigin = scene.lightOrigin;
     out.background = scene.background;
     out.lightsVisible = lightsVisible;
@@ -131,9 +139,9 @@ reference::Scene toReference(const Scene& scene, const Camera& camera, double im
     return out;
 }
 
-std::vector<std::string> leftOutByReference(const Scene& scene, bool shadows)
+std::vector<std::string> leftOutByReference(const Scene& scene)
 {
-    size_t textured = 0, transparent = 0;
+    size_t textured = 0;
     for (const Instance& instance : scene.instances) {
         const Material& m = scene.materials[instance.material];
         const auto& colours = scene.meshes[instance.mesh].vertices;
@@ -141,17 +149,12 @@ std::vector<std::string> leftOutByReference(const Scene& scene, bool shadows)
                                 [](const Vertex& v) { return v.color != glm::vec4(1); }) ||
                     std::max({m.baseColorTexture.texture, m.metallicRoughnessTexture.texture,
                               m.normalTexture.texture, m.emissiveTexture.texture}) >= 0;
-        transparent += m.alphaMode != AlphaMode::Opaque;
     }
     std::vector<std::string> out;
     if (textured)
         out.push_back(fmt::format("{} of {} objects have textures or vertex colours, which the "
                                   "truth leaves out",
                                   textured, scene.instances.size()));
-    if (transparent && shadows)
-        out.push_back(fmt::format("{} of {} objects are masked, blended or transmissive, and cast "
-                                  "no shadows",
-                                  transparent, scene.instances.size()));
     if (scene.environment)
         out.push_back("the truth leaves out the light of the environment");
     return out;
@@ -187,6 +190,7 @@ uint64_t referenceHash(const reference::Scene& scene, const reference::TruthOpti
         add(hash, object.normal);
         hash.add(object.radius);
         hash.add(object.material);
+        hash.add(object.occluderLayer);
     }
     hash.add(scene.triangles.size());
     for (const reference::Triangle& triangle : scene.triangles)

@@ -224,6 +224,8 @@ void drawLights(PanelState& state, const PanelFigures& figures)
         combo("heat map", state.frame.heatMap, heatMapChoices);
     else
         state.frame.heatMap = HeatMap::None;
+    if (state.frame.heatMap == HeatMap::Shadow && !state.frame.shadows)
+        state.frame.heatMap = HeatMap::None; // there are none to show
 }
 
 void drawHistogram(const CndExposureStats& stats)

@@ -74,6 +74,7 @@ RendererOptions rendererOptions(const ViewerOptions& options, const FrameOptions
             .framesInFlight = Screen::slotCount,
             .specularMethods = 1u << frame.specular,
             .shading = shadingOf(frame),
+            .shadows = options.frame.shadows,
             .influenceByError = options.frame.influence.rule == CND_INFLUENCE_BY_ERROR};
 }
 

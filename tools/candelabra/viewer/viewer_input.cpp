@@ -335,6 +335,8 @@ bool Viewer::onFrameAction(KeyAction action)
     case KeyAction::HeatMap:
         if (frame.culling == CND_CULLING_CLUSTERED)
             frame.heatMap = HeatMap((uint32_t(frame.heatMap) + 1) % heatMapCount);
+        if (frame.heatMap == HeatMap::Shadow && !frame.shadows)
+            frame.heatMap = HeatMap::None;
         showNote(frame.culling == CND_CULLING_CLUSTERED
                      ? fmt::format("heat map: {}", nameOf(frame.heatMap, heatMapChoices))
                      : "heat maps need clustered culling (C)");
@@ -685,8 +687,7 @@ void Viewer::pick(PixelPosition pixel)
 {
     const PixelSize size = swapchain_.size();
     FrameOptions frame = optionsAt(int32_t(pixel.x));
-    if (const std::string refusal = pickRefusal(frame.specular, frame.influence.rule);
-        !refusal.empty()) {
+    if (const std::string refusal = pickRefusal(frame); !refusal.empty()) {
         showNote("no pixel picked: " + refusal);
         return;
     }

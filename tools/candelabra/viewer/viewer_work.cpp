@@ -132,7 +132,7 @@ void Viewer::startWork()
         FrameOptions brute = frame;
         brute.culling = CND_CULLING_BRUTE;
         brute.heatMap = HeatMap::None;
-        const bool draws = pickRefusal(frame.specular, frame.influence.rule).empty();
+        const bool draws = pickRefusal(frame).empty();
         takeBack_ = [this] { pick_.reset(); };
         for (const FrameOptions& needed : {frame, brute})
             if (draws && !renderer_->canDraw(needed))

@@ -17,6 +17,7 @@
 #include "measure/frame/frames.h"
 #include "render/camera.h"
 #include "render/readback.h"
+#include "render/setting_names.h"
 #include "scene/scene_error.h"
 #include "scene/scene_options.h"
 
@@ -31,7 +32,8 @@ constexpr double stripPairs = 2e8;
 
 bool isShadingPass(const std::string& pass)
 {
-    return pass.starts_with("shade_") || pass == "baseline_shade" || pass == "baseline_floor";
+    return pass.starts_with("shade_") || pass == "baseline_shade" || pass == "baseline_floor" ||
+           pass == "pair_visibility";
 }
 
 // Returns false for the kernel that fills a table which shading reads: it runs in the first frame
@@ -76,22 +78,23 @@ FrameOptions frameOptions(const Scene& scene)
 class Frame
 {
 public:
-    Frame(const VulkanContext& context, const Scene& scene, PixelSize size)
+    Frame(const VulkanContext& context, const Scene& scene, PixelSize size, uint32_t shadows)
         : context_(context),
           scene_(scene),
           options_(frameOptions(scene)),
-          renderer_(context, scene, {.size = size, .specularMethods = 1u << CND_SPECULAR_CONIC}),
+          shadowed_(options_),
+          renderer_(
+              context, scene,
+              {.size = size, .specularMethods = 1u << CND_SPECULAR_CONIC, .shadows = shadows}),
           baselines_(context, renderer_, scene, options_)
     {
+        shadowed_.shadows = shadows;
         drawEngine(); // compiles kernels, fills tables, uploads lights
         drawEngine();
         image_ = readRadiance(context_, renderer_);
     }
-    std::vector<PassTime> drawEngine()
-    {
-        context_.submitAndWait([&](VkCommandBuffer cmd) { renderer_.record(cmd, 0, options_); });
-        return passesOf(renderer_.lightingStats(0));
-    }
+    std::vector<PassTime> drawEngine() { return draw(options_); }
+    std::vector<PassTime> drawShadowed() { return draw(shadowed_); }
     std::vector<PassTime> drawBaseline(Baseline b) { return baselines_.draw(b); }
     // The difference of the last frame drawn to the engine's image.
     double difference() const
@@ -129,12 +132,22 @@ public:
         return once() * double(width) * height / (double(columns) * rows);
     }
     CndLightingStats countPairs() { return app::countPairs(context_, renderer_, options_); }
+    CndLightingStats countShadowedPairs()
+    {
+        return app::countPairs(context_, renderer_, shadowed_);
+    }
     BaselineStats statsOf(Baseline b) const { return baselines_.stats(b); }
 
 private:
+    std::vector<PassTime> draw(const FrameOptions& options)
+    {
+        context_.submitAndWait([&](VkCommandBuffer cmd) { renderer_.record(cmd, 0, options); });
+        return passesOf(renderer_.lightingStats(0));
+    }
+
     const VulkanContext& context_;
     const Scene& scene_;
-    FrameOptions options_;
+    FrameOptions options_, shadowed_;
     Renderer renderer_;
     Baselines baselines_;
     Image image_;
@@ -152,9 +165,9 @@ Contender withStats(const char* name, const BaselineStats& s)
     return c;
 }
 
-Contender engineContender(const CndLightingStats& s)
+Contender engineContender(const char* name, const CndLightingStats& s)
 {
-    Contender c{.name = engineName, .difference = 0};
+    Contender c{.name = name};
     c.listEntries = s.listEntries;
     // Lists take whole pages of memory, but the statistics count entries only.
     c.listBytes = uint64_t(s.listEntries) * sizeof(uint32_t);
@@ -169,12 +182,15 @@ CullingPoint measurePoint(const VulkanContext& context, const CullingSettings& s
                           const Scene& scene, CullingPoint point,
                           const std::function<void()>& onRound)
 {
-    Frame frame(context, scene, point.size);
+    Frame frame(context, scene, point.size, settings.shadows);
     const CndLightingStats stats = frame.countPairs();
     point.tiles = stats.tileCount;
     point.splitTiles = stats.splitTileCount;
     point.unlistedClusters = stats.unlistedClusters;
-    Contender engine = engineContender(stats), floor{.name = floorName};
+    Contender engine = engineContender(engineName, stats), floor{.name = floorName}, shadowed;
+    engine.difference = 0;
+    if (settings.shadows) // which compiles the kernels
+        shadowed = engineContender(shadowedName, frame.countShadowedPairs());
     Contender tiles = withStats(tilesName, frame.statsOf(Baseline::Tiles));
     Contender froxels = withStats(froxelsName, frame.statsOf(Baseline::Froxels));
     floor.contributingPairs = floor.listedPairs = tiles.contributingPairs;
@@ -188,12 +204,14 @@ CullingPoint measurePoint(const VulkanContext& context, const CullingSettings& s
     froxels.difference = frame.difference();
     frame.drawBaseline(Baseline::Floor);
 
-    const std::function<void()> turns[] = {
+    std::vector<std::function<void()>> turns{
         [&] { engine.times.add(frame.drawEngine()); },
         [&] { tiles.times.add(frame.drawBaseline(Baseline::Tiles)); },
         [&] { froxels.times.add(frame.drawBaseline(Baseline::Froxels)); },
         [&] { floor.times.add(frame.drawBaseline(Baseline::Floor)); }};
-    constexpr size_t count = std::size(turns);
+    if (settings.shadows)
+        turns.push_back([&] { shadowed.times.add(frame.drawShadowed()); });
+    const size_t count = turns.size();
     for (uint32_t round = 0; round < settings.rounds; ++round) {
         for (size_t i = 0; i < count; ++i)
             turns[(round + i) % count](); // the first place goes around
@@ -206,6 +224,8 @@ CullingPoint measurePoint(const VulkanContext& context, const CullingSettings& s
         onRound();
     }
     point.contenders = {engine, tiles, froxels, brute, floor};
+    if (settings.shadows)
+        point.contenders.push_back(shadowed);
     return point;
 }
 
@@ -538,6 +558,7 @@ Json cullingJson(const CullingSettings& settings, const std::vector<CullingPoint
     }
     return {{"rounds", settings.rounds},
             {"seed", settings.seed},
+            {"shadows", shadowsName(settings.shadows)},
             {"specular", "conic"},
             {"bruteLimitSeconds", settings.bruteLimit},
             {"bound", Contender::reorderedBound},

@@ -25,6 +25,7 @@ struct CullingSettings {
     std::vector<uint32_t> overlaps{8, 30};
     uint32_t rounds = minPairs; // the least that give an interval
     uint32_t seed = 1;
+    uint32_t shadows = 0; // 32 or 64: the engine also lights the frame with shadows
     // ms; brute force that takes longer is drawn once, and not in every round.
     double brutePatience = 1000;
     double bruteLimit = 60; // s; brute force is skipped if a frame is estimated to take longer
@@ -38,7 +39,7 @@ struct Contender {
     uint64_t listedPairs = 0, evaluatedPairs = 0, insidePairs = 0, contributingPairs = 0;
     std::optional<double> skippedMs; // if it was not drawn: how long it was estimated to take
     // The largest difference of any channel to the engine's image, relative to that image's largest
-    // value. The floor has no image.
+    // value. The floor has no image, and the frame with shadows has another one.
     std::optional<double> difference;
 
     // The bound of `difference`; brute force has the bound of BruteCheck instead. The lists of
@@ -77,6 +78,7 @@ inline constexpr const char* tilesName = "16x16 tiles";
 inline constexpr const char* froxelsName = "froxels";
 inline constexpr const char* floorName = "floor";
 inline constexpr const char* bruteName = "brute force";
+inline constexpr const char* shadowedName = "candelabra with shadows";
 
 double cullingSteps(const CullingSettings& settings);
 // Measures all configurations. One whose overlaps cannot be reached is left out with a warning.

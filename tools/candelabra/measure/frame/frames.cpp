@@ -75,6 +75,11 @@ private:
     MeasuredFrames out_;
 };
 
+bool asksForShadows(const CndLightingStats& stats)
+{
+    return stats.askedPairs || stats.shadowSlots || stats.missingShadowSlots;
+}
+
 } // namespace
 
 MeasuredFrames renderFrames(const VulkanContext& context, Renderer& renderer,
@@ -167,6 +172,30 @@ std::string planText(const FrameStats& frame)
     return out;
 }
 
+std::string shadowText(const CndLightingStats& stats, PixelSize size)
+{
+    if (!asksForShadows(stats))
+        return "";
+    const auto perPixel = [&](uint64_t pairs) {
+        return threeDigits(double(pairs) / (double(size.width) * size.height));
+    };
+    const uint64_t asked = stats.askedPairs;
+    std::string out = fmt::format(
+        "shadows: a pixel asks for {} lights, and sees {} wholly, {} in part and {} not at all; "
+        "{} used",
+        perPixel(asked), perPixel(asked - stats.partlyLitPairs - stats.darkPairs),
+        perPixel(stats.partlyLitPairs), perPixel(stats.darkPairs),
+        counted(stats.shadowSlots, "slot"));
+    if (stats.missingShadowSlots)
+        out += fmt::format("; {} missing, whose pixels take longer: raise "
+                           "CndLightingViewDesc::shadowBudget",
+                           counted(stats.missingShadowSlots, "slot"));
+    if (stats.unfinishedPairs)
+        out += fmt::format("; {} searches for occluders cut off, because the device limits loops",
+                           grouped(stats.unfinishedPairs));
+    return out + "\n";
+}
+
 Json toJson(const std::vector<CndPassPlan>& plan)
 {
     Json out = Json::array();
@@ -194,17 +223,25 @@ Json toJson(const PassTimes& times)
 Json toJson(const CndLightingStats& stats)
 {
     const double tiles = std::max(stats.tileCount, 1u);
-    return {{"lights", stats.lightCount},
-            {"tiles", stats.tileCount},
-            {"listEntries", stats.listEntries},
-            {"entriesPerTile", stats.listEntries / tiles},
-            {"maxListLength", stats.maxListLength},
-            {"unlistedClusters", stats.unlistedClusters},
-            {"cutBelowLux", stats.cutBelow},
-            {"listedPairs", stats.listedPairs},
-            {"insidePairs", stats.insidePairs},
-            {"contributingPairs", stats.contributingPairs},
-            {"evaluatedPairs", stats.evaluatedPairs}};
+    Json out{{"lights", stats.lightCount},
+             {"tiles", stats.tileCount},
+             {"listEntries", stats.listEntries},
+             {"entriesPerTile", stats.listEntries / tiles},
+             {"maxListLength", stats.maxListLength},
+             {"unlistedClusters", stats.unlistedClusters},
+             {"cutBelowLux", stats.cutBelow},
+             {"listedPairs", stats.listedPairs},
+             {"insidePairs", stats.insidePairs},
+             {"contributingPairs", stats.contributingPairs},
+             {"evaluatedPairs", stats.evaluatedPairs}};
+    if (asksForShadows(stats))
+        out["shadows"] = {{"askedPairs", stats.askedPairs},
+                          {"partlyLitPairs", stats.partlyLitPairs},
+                          {"darkPairs", stats.darkPairs},
+                          {"slots", stats.shadowSlots},
+                          {"missingSlots", stats.missingShadowSlots},
+                          {"unfinishedPairs", stats.unfinishedPairs}};
+    return out;
 }
 
 Json toJson(const CndExposureStats& stats)
@@ -229,6 +266,7 @@ Json toJson(const FrameOptions& options, CndGBufferLayout layout)
             {"influence", influenceName(options.influence.rule)},
             {"influenceError", options.influence.maxError},
             {"culling", cullingName(options.culling)},
+            {"shadows", shadowsName(options.shadows)},
             {"reuse", reuseName(options.reuse)},
             {"debug", heatMapName(options.heatMap)},
             {"bloom", options.bloom},
@@ -236,7 +274,7 @@ Json toJson(const FrameOptions& options, CndGBufferLayout layout)
             {"gbuffer", gbufferName(layout)},
             {"toneMap", toneMapName(options.exposure.toneMap)},
             {"lightsVisible", options.lightsVisible},
-            {"levelsOfDetail", options.levels},
+            {"levelsOfDetail", options.drawsLevels()},
             {"cullTriangles", options.cullTriangles},
             {"exposure", options.exposure.manual ? "manual" : "auto"},
             {"compensationEv", options.exposure.compensation},

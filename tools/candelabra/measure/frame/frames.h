@@ -61,10 +61,14 @@ std::string passTable(const PassTimes& times);
 // pass, which says that the pass ran, or why it was skipped, or why it was recorded and timed but
 // had nothing to do.
 std::string planText(const FrameStats& frame);
+// Returns a line with the pairs whose visibility a frame of so many pixels asked for, as
+// countPairs() counts them, and with what was missing. Empty if nothing was asked.
+std::string shadowText(const CndLightingStats& stats, PixelSize size);
 
 Json toJson(const PassTimes& times);
 Json toJson(const std::vector<CndPassPlan>& plan);
-Json toJson(const CndLightingStats& stats); // pairs are 0 if they were not counted
+// Pairs are 0 if they were not counted. Only frames that asked for visibility have "shadows".
+Json toJson(const CndLightingStats& stats);
 Json toJson(const CndExposureStats& stats);
 Json toJson(const FrameOptions& options, CndGBufferLayout layout);
 Json sceneJson(const Scene& scene, const Renderer& renderer);

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/visibility/visibility.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <ctime>
+#include <mutex>
+#include <set>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "generate/random.h"
+#include "io/table.h"
+#include "measure/frame/frames.h"
+#include "measure/frame/pick.h"
+#include "measure/profile/profile_frames.h"
+#include "reference/emitter_points.h"
+#include "reference/joining.h"
+#include "reference/truth.h"
+#include "reference/visibility.h"
+#include "render/readback.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+constexpr const char* rivalNames[] = {"no shadows", "1 ray to the centre", "1 random ray",
+                                      "4 random rays", "16 random rays"};
+constexpr size_t rivalCount = std::size(rivalNames);
+constexpr int mostRays = 16;
+
+double medianOfPass(const FrameSeries& series, const std::string& name)
+{
+    for (const FrameSeries::Pass& pass : series.passes)
+        if (pass.name == name)
+            return medianOf(pass.ms);
+    return 0;
+}
+
+// The CPU time of all threads while a frame is recorded and drawn.
+double cpuMsOf(const VulkanContext& context, Renderer& renderer, const FrameOptions& frame)
+{
+    const std::clock_t start = std::clock();
+    context.submitAndWait([&](VkCommandBuffer cmd) { renderer.record(cmd, 0, frame); });
+    return 1e3 * double(std::clock() - start) / CLOCKS_PER_SEC;
+}
+
+// The rays from a surface to a light.
+class LightRays
+{
+public:
+    LightRays(const reference::Scene& scene, const reference::Occluders& occluders, size_t light,
+              const reference::SurfacePoint& surface)
+        : occluders_(occluders),
+          surface_(surface),
+          light_(scene.lights[light]),
+          origin_(scene.lightOrigin),
+          ignoredLayers_(scene.ignoredLayers[light]),
+          emitter_(light_, origin_, surface.position)
+    {
+    }
+
+    // Returns what each rival takes for the visible share.
+    std::array<double, rivalCount> shares(Random& random) const
+    {
+        if (emitter_.contain())
+            return {1, 1, 1, 1, 1};
+        std::array<double, rivalCount> out{1, isSeen(centre()) ? 1.0 : 0.0};
+        int seen = 0;
+        size_t rival = 2;
+        for (int ray = 1; ray <= mostRays; ++ray) {
+            seen += isSeen(randomPoint(random));
+            if (ray == 1 || ray == 4 || ray == mostRays)
+                out[rival++] = double(seen) / ray;
+        }
+        return out;
+    }
+
+private:
+    reference::EmitterPoint centre() const
+    {
+        if (emitter_.isPoint())
+            return emitter_.at(0, 0);
+        const float(&v)[3] = cndIsDistant(light_.type) ? light_.direction : light_.position;
+        const glm::dvec3 vector(v[0], v[1], v[2]);
+        const glm::dvec3 toCentre =
+            cndIsDistant(light_.type) ? -vector : origin_ + vector - surface_.position;
+        return emitter_.along(glm::normalize(toCentre)).value_or(emitter_.at(0.5, 0.5));
+    }
+    // A point that can light the surface.
+    reference::EmitterPoint randomPoint(Random& random) const
+    {
+        constexpr int mostTries = 64;
+        reference::EmitterPoint out;
+        for (int i = 0; i < mostTries; ++i) {
+            const glm::vec2 uv = random.uniform2();
+            out = emitter_.at(double(uv.x), double(uv.y));
+            if (out.density > 0 && glm::dot(surface_.normal, out.direction) > 0)
+                break;
+        }
+        return out;
+    }
+    // As the truth tests points (reference/visibility.h).
+    bool isSeen(const reference::EmitterPoint& point) const
+    {
+        const bool distant = std::isinf(point.distance);
+        return !occluders_.stop(
+            {.origin = surface_.position,
+             .direction = distant ? point.direction : point.distance * point.direction,
+             .end = distant ? point.distance : 1 / (1 + 0x1p-12),
+             .ignoredLayers = ignoredLayers_});
+    }
+
+    const reference::Occluders& occluders_;
+    const reference::SurfacePoint& surface_;
+    const CndLight& light_;
+    glm::dvec3 origin_;
+    uint32_t ignoredLayers_;
+    reference::EmitterPoints emitter_;
+};
+
+// The luminance of a pixel.
+struct PixelValues {
+    bool surface = false; // it shows one
+    double truth = 0;
+    std::array<double, rivalCount> rivals{};
+};
+
+PixelValues pixelValues(const reference::Scene& scene, const reference::Occluders& occluders,
+                        const reference::Hit& hit, double tolerance, uint64_t seed)
+{
+    const reference::Material& surface = scene.materials[hit.material];
+    const reference::Material material =
+        joinLobes(surface, glm::dot(hit.surface.normal, hit.surface.toEye), scene.lobes,
+                  scene.energyCompensation);
+    glm::dvec3 truth = surface.emission;
+    reference::addLights({.lights = scene.lights,
+                          .ignoredLayers = scene.ignoredLayers,
+                          .lightOrigin = scene.lightOrigin,
+                          .occluders = &occluders,
+                          .relative = tolerance,
+                          .seed = seed},
+                         hit.surface, material, truth);
+    PixelValues out{.surface = true, .truth = luminanceOf(truth)};
+    out.rivals.fill(luminanceOf(surface.emission));
+    Random random(seed);
+    for (size_t i = 0; i < scene.lights.size(); ++i) {
+        const double light = luminanceOf(
+            truthLuminance(hit.surface, material, scene.lights[i], scene.lightOrigin, tolerance)
+                .luminance);
+        if (light == 0)
+            continue;
+        const auto shares = LightRays(scene, occluders, i, hit.surface).shares(random);
+        for (size_t rival = 0; rival < rivalCount; ++rival)
+            out.rivals[rival] += shares[rival] * light;
+    }
+    return out;
+}
+
+std::vector<uint32_t> randomPixels(PixelSize size, uint32_t count)
+{
+    const uint32_t all = size.width * size.height;
+    std::set<uint32_t> chosen;
+    Random random(1);
+    while (chosen.size() < std::min(count, all))
+        chosen.insert(random.below(all));
+    return {chosen.begin(), chosen.end()};
+}
+
+VisibilityError errorOf(const char* name, const std::vector<double>& values,
+                        const std::vector<double>& truths)
+{
+    VisibilityError out{.name = name};
+    std::vector<double> errors;
+    for (size_t i = 0; i < truths.size(); ++i) {
+        errors.push_back(std::abs(values[i] - truths[i]) / truths[i]);
+        out.mean += errors.back() / double(truths.size());
+    }
+    if (!errors.empty())
+        out.spread = spreadOf(errors);
+    return out;
+}
+
+} // namespace
+
+double visibilitySteps(const VisibilitySettings& s)
+{
+    return double(maxWarmUp) + 2.0 * s.rounds + s.pixels;
+}
+
+VisibilityCost measureVisibilityCost(const VulkanContext& context, Renderer& renderer,
+                                     const VisibilitySettings& settings, Progress& progress)
+{
+    progress.doing("timing");
+    FrameOptions without = settings.frame;
+    without.shadows = 0;
+    const Profile profile = profileFrames(
+        context, renderer, {.variants = {settings.frame, without}, .rounds = settings.rounds},
+        [&] { progress.advance(1); });
+    VisibilityCost out{.stats = countPairs(context, renderer, settings.frame),
+                       .askMs = medianOfPass(profile.series[0], "ask_pairs"),
+                       .visibilityMs = medianOfPass(profile.series[0], "pair_visibility"),
+                       .ratio = pairedRatio(profile.series[1].gpuMs, profile.series[0].gpuMs)};
+    std::vector<double> more;
+    for (uint32_t round = 0; round < settings.rounds; ++round) {
+        const double with = cpuMsOf(context, renderer, settings.frame);
+        more.push_back(with - cpuMsOf(context, renderer, without));
+        progress.advance(1);
+    }
+    out.cpuMs = medianOf(more);
+    return out;
+}
+
+VisibilityErrors measureVisibilityErrors(const VulkanContext& context, Renderer& renderer,
+                                         const reference::Scene& model,
+                                         const VisibilitySettings& settings, Progress& progress)
+{
+    progress.doing("integrating");
+    context.submitAndWait([&](VkCommandBuffer cmd) { renderer.record(cmd, 0, settings.frame); });
+    const Image image = readRadiance(context, renderer);
+    const std::vector<uint32_t> pixels = randomPixels(renderer.size(), settings.pixels);
+    const reference::Occluders occluders(model.objects, model.triangles);
+    std::vector<PixelValues> found(pixels.size());
+    std::atomic<size_t> next{0};
+    std::mutex progressMutex;
+    const auto work = [&] {
+        for (size_t i = next++; i < pixels.size(); i = next++) {
+            const auto hit = reference::tracePixel(
+                model, image.width, image.height, pixels[i] % image.width, pixels[i] / image.width);
+            if (hit)
+                found[i] = pixelValues(model, occluders, *hit, settings.tolerance, pixels[i]);
+            const std::lock_guard lock(progressMutex);
+            progress.advance(1);
+        }
+    };
+    {
+        std::vector<std::jthread> threads;
+        for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i)
+            threads.emplace_back(work);
+        work();
+    }
+    VisibilityErrors out;
+    std::vector<double> truths, ours, rivals[rivalCount];
+    for (size_t i = 0; i < pixels.size(); ++i) {
+        const float* p = &image.pixels[size_t{3} * pixels[i]];
+        const double drawn = luminanceOf({p[0], p[1], p[2]});
+        if (!(found[i].truth > 0)) {
+            out.leaks += found[i].surface && drawn > 0;
+            continue;
+        }
+        truths.push_back(found[i].truth);
+        ours.push_back(drawn);
+        for (size_t rival = 0; rival < rivalCount; ++rival)
+            rivals[rival].push_back(found[i].rivals[rival]);
+    }
+    out.compared = truths.size();
+    out.rows.push_back(errorOf("this engine", ours, truths));
+    for (size_t rival = 0; rival < rivalCount; ++rival)
+        out.rows.push_back(errorOf(rivalNames[rival], rivals[rival], truths));
+    return out;
+}
+
+std::string visibilityText(const VisibilityCost& cost, const VisibilityErrors& errors,
+                           PixelSize size)
+{
+    const CndLightingStats& s = cost.stats;
+    const double asked = double(std::max<uint64_t>(s.askedPairs, 1));
+    std::string out = shadowText(s, size);
+    out += fmt::format("ask_pairs {} ms, pair_visibility {} ms: {} us per pair asked for; CPU "
+                       "time {} us per pair\n",
+                       threeDigits(cost.askMs), threeDigits(cost.visibilityMs),
+                       threeDigits(1e3 * cost.visibilityMs / asked),
+                       threeDigits(1e3 * cost.cpuMs / asked));
+    out += fmt::format("the frame takes {:.3f} [{:.3f}, {:.3f}] times as long as without shadows\n",
+                       cost.ratio.median, cost.ratio.low, cost.ratio.high);
+    Table table({"visible share of a light", "mean error", "p95", "p99"});
+    const auto percent = [](double x) { return fmt::format("{:.3f}%", 100 * x); };
+    for (const VisibilityError& e : errors.rows)
+        table.add({e.name, percent(e.mean), percent(e.spread.p95), percent(e.spread.p99)});
+    table.note(fmt::format("Errors of the luminance of {}, relative to the truth. {} that should "
+                           "be black {} light.",
+                           counted(errors.compared, "random pixel"), counted(errors.leaks, "pixel"),
+                           errors.leaks == 1 ? "has" : "have"));
+    return out + table.text();
+}
+
+Json visibilityJson(const VisibilityCost& cost, const VisibilityErrors& errors)
+{
+    const CndLightingStats& s = cost.stats;
+    const double asked = double(std::max<uint64_t>(s.askedPairs, 1));
+    Json list = Json::array();
+    for (const VisibilityError& e : errors.rows)
+        list.push_back({{"name", e.name},
+                        {"meanPercent", 100 * e.mean},
+                        {"p95Percent", 100 * e.spread.p95},
+                        {"p99Percent", 100 * e.spread.p99}});
+    return {{"pairs",
+             {{"asked", s.askedPairs},
+              {"lit", s.askedPairs - s.partlyLitPairs - s.darkPairs},
+              {"partlyLit", s.partlyLitPairs},
+              {"dark", s.darkPairs},
+              {"missingSlots", s.missingShadowSlots},
+              {"unfinished", s.unfinishedPairs}}},
+            {"askPairsMs", cost.askMs},
+            {"pairVisibilityMs", cost.visibilityMs},
+            {"cpuMicrosecondsPerAskedPair", 1e3 * cost.cpuMs / asked},
+            {"timeOverUnshadowed",
+             {{"median", cost.ratio.median}, {"low", cost.ratio.low}, {"high", cost.ratio.high}}},
+            {"pixelsCompared", errors.compared},
+            {"leaks", errors.leaks},
+            {"errors", list}};
+}
+
+} // namespace candelabra::app

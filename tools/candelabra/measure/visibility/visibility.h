@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Measures what soft shadows cost and how exact they are, beside rays as rivals.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/progress.h"
+#include "io/report.h"
+#include "io/statistics.h"
+#include "reference/render.h"
+#include "render/renderer.h"
+
+namespace candelabra::app
+{
+
+struct VisibilitySettings {
+    FrameOptions frame;      // with shadows
+    uint32_t rounds = 1;     // of frames with and without shadows
+    uint32_t pixels = 1;     // at random positions, compared with the truth
+    double tolerance = 1e-4; // reference::TruthOptions::relative
+};
+
+// Errors of the luminance of pixels, relative to their truth.
+struct VisibilityError {
+    std::string name;
+    double mean = 0;
+    Spread spread;
+};
+
+struct VisibilityErrors {
+    std::vector<VisibilityError> rows; // of this engine, without shadows, and of rays
+    size_t compared = 0;               // pixels with light
+    size_t leaks = 0; // pixels without light, by the truth, that the engine gives light
+};
+
+struct VisibilityCost {
+    CndLightingStats stats{};           // with counted pairs
+    double askMs = 0, visibilityMs = 0; // medians of the passes ask_pairs and pair_visibility
+    double cpuMs = 0;  // CPU time that a frame takes with shadows, less that without
+    PairedRatio ratio; // GPU time with shadows over that without
+};
+
+VisibilityCost measureVisibilityCost(const VulkanContext& context, Renderer& renderer,
+                                     const VisibilitySettings& settings, Progress& progress);
+
+// Returns the errors of the renderer's frame and those of rivals: the truth of each light without
+// shadows, multiplied by the share of rays that reach it, and without rays all of it. `model`: the
+// scene that the renderer draws, seen by the camera of the frame.
+VisibilityErrors measureVisibilityErrors(const VulkanContext& context, Renderer& renderer,
+                                         const reference::Scene& model,
+                                         const VisibilitySettings& settings, Progress& progress);
+
+// What the progress of both functions counts.
+double visibilitySteps(const VisibilitySettings& settings);
+
+std::string visibilityText(const VisibilityCost& cost, const VisibilityErrors& errors,
+                           PixelSize size);
+Json visibilityJson(const VisibilityCost& cost, const VisibilityErrors& errors);
+
+} // namespace candelabra::app

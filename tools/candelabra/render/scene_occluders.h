@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Gives the surfaces of a scene to the lighting module as occluders.
+#pragma once
+
+#include "candelabra/candelabra.hpp"
+#include "scene/scene.h"
+
+namespace candelabra::app
+{
+
+// Adds everything of the scene that casts shadows (scene/shadow_casters.h). Meshes are the full
+// ones, without levels of detail, and instances share them. Balls become a mesh inside of them,
+// within 0.4% of their radius, and planes a square that reaches far beyond the scene, because
+// lights may be behind them. `materials`: those of the scene, or as many others in their place.
+// Throws RunError.
+void addOccluders(Lighting& lighting, const Scene& scene, const std::vector<Material>& materials);
+
+} // namespace candelabra::app
