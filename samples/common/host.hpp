@@ -64,11 +64,13 @@ constexpr ImageUse sampledRead{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
 constexpr ImageUse storageWrite{VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                                 VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
 
-// A pipeline of a sample's own. It draws without vertex buffers.
+// A pipeline of a sample's own.
 struct RasterDesc {
     std::span<const uint32_t> vertex, fragment; // SPIR-V; the fragment shader may be missing
     VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;
-    VkPushConstantRange constants{}; // of size 0: none
+    VkPushConstantRange constants{};                               // of size 0: none
+    std::span<const VkVertexInputAttributeDescription> attributes; // of vertex buffer 0
+    uint32_t vertexBytes = 0; // from one vertex to the next; 0: there is no vertex buffer
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     VkCullModeFlags cullMode = VK_CULL_MODE_NONE; // front faces are counter-clockwise
     VkCompareOp depthTest = VK_COMPARE_OP_LESS;

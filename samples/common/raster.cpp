@@ -31,8 +31,13 @@ Raster createRaster(VkDevice device, const RasterDesc& desc)
     if (!desc.fragment.empty())
         stages.push_back(createStage(device, VK_SHADER_STAGE_FRAGMENT_BIT, desc.fragment));
 
-    const VkPipelineVertexInputStateCreateInfo noVertices{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+    const VkVertexInputBindingDescription buffer{0, desc.vertexBytes, VK_VERTEX_INPUT_RATE_VERTEX};
+    const VkPipelineVertexInputStateCreateInfo vertices{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
+        .vertexBindingDescriptionCount = desc.vertexBytes ? 1u : 0u,
+        .pVertexBindingDescriptions = &buffer,
+        .vertexAttributeDescriptionCount = uint32_t(desc.attributes.size()),
+        .pVertexAttributeDescriptions = desc.attributes.data()};
     const VkPipelineInputAssemblyStateCreateInfo assembly{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
         .topology = desc.topology};
@@ -73,7 +78,7 @@ Raster createRaster(VkDevice device, const RasterDesc& desc)
                                             .pNext = desc.renderPass ? nullptr : &rendering,
                                             .stageCount = uint32_t(stages.size()),
                                             .pStages = stages.data(),
-                                            .pVertexInputState = &noVertices,
+                                            .pVertexInputState = &vertices,
                                             .pInputAssemblyState = &assembly,
                                             .pViewportState = &viewport,
                                             .pRasterizationState = &rasterization,
