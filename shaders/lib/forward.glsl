@@ -8,8 +8,9 @@
 // returns the light of all lights:
 //   vec3 luminance = litSurface(surface, position); // Surface: lib/gbuffer.glsl
 // A shader that defines CANDELABRA_SHADOWS before the include finds the shadows of the module's
-// occluders, for which the module needs CndLightingDesc::shadows. Each invocation walks through them, and
-// its stage needs subgroup votes and arithmetic. Positions are taken as exact to 2^-18 of their distance.
+// occluders, for which the module needs CndLightingDesc::shadows. Each invocation walks through them,
+// and its stage needs subgroup votes and arithmetic. Positions count as exact to 2^-18 of their
+// distance.
 // A shader with a shadow term defines CANDELABRA_VISIBILITY before the include, and the function of
 // lib/shadow_query.glsl after it.
 // A loop over the lights gives access to each of them, for instance for a shadow term that needs more
