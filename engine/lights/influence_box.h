@@ -10,6 +10,7 @@
 
 #include "candelabra/candelabra.h"
 #include "shared/lighting_data.h"
+#include "shared/occluder_data.h"
 
 namespace candelabra::lighting
 {

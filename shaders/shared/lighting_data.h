@@ -45,15 +45,13 @@ struct LightRecord {
     uint id;               // low half of the CndLightId, or LIGHT_OF_DEVICE and an index; polygon:
                            //   the index of its PolygonRecord, which holds the id
     vec3 axisV;            // types with a radius and axisU but no axisV: (radius, 0, 0)
-    // LIGHT_*, plus LIGHT_TWO_SIDED, plus layers << LIGHT_LAYERS_SHIFT, plus LIGHT_UNSHADOWED,
-    // plus the occluder layers that do not shadow the light << LIGHT_UNSHADOWED_BY_SHIFT
+    // LIGHT_*, plus LIGHT_TWO_SIDED, plus layers << LIGHT_LAYERS_SHIFT, plus what occluder_data.h
+    // says of shadows
     uint flags;
 };
 GPU_SIZE(LightRecord, 64)
 const uint LIGHT_TYPE_MASK = 255u;
 const uint LIGHT_LAYERS_SHIFT = 8u;
-const uint LIGHT_UNSHADOWED = 0x1000000u;
-const uint LIGHT_UNSHADOWED_BY_SHIFT = 25u;
 const uint LIGHT_TWO_SIDED = 0x80000000u;
 const uint LIGHT_OF_DEVICE = 0x80000000u;
 const uint ALL_LAYERS = 0xFFFFu;

@@ -8,6 +8,11 @@
 
 GPU_BEGIN
 
+// Bits of LightRecord::flags. They are here, so that the kernels of modules without shadows do not
+// depend on them. LIGHT_UNSHADOWED: no occluder shadows the light.
+const uint LIGHT_UNSHADOWED = 0x1000000u;
+const uint LIGHT_UNSHADOWED_BY_SHIFT = 25u; // occluder layers that do not shadow the light
+
 // A node of a tree over triangles or over instances. The nodes of a tree are stored depth first. A
 // walk begins at index 0 and goes to the next index from an inner node whose box it touches, and to
 // `skip` from any other node. It ends at the `skip` of the root, which is the number of nodes.
