@@ -261,7 +261,7 @@ void View::recordClustered(const gpu::Frame& f, const FramePlan& p, uint32_t typ
     if (isDistant(type)) { // they light every surface: no lists
         inBatches(allLights(p, type), lightsPerBatch(p, type), [&](const gpu::LightBatch& batch) {
             if (p.shadows)
-                shadows_->recordBatch(f, p, type, batch, {0, 0}, p.tileCount);
+                shadows_->recordBatch(f, type, batch, {0, 0}, p.tileCount);
             if (p.shadows && p.frame.countPairs)
                 shadows_->recordCounts(f, p, type, batch);
             shade(batch);
@@ -361,7 +361,7 @@ void View::recordBrute(const gpu::Frame& f, const FramePlan& p, uint32_t type) c
                 const glm::uvec2 tiles(tilesAlong(to.x - from.x), tilesAlong(to.y - from.y));
                 if (p.shadows) {
                     u.barrier(); // the rectangle before this one has the same slots
-                    shadows_->recordBatch(u, p, type, batch, from, tiles);
+                    shadows_->recordBatch(u, type, batch, from, tiles);
                 }
                 kernels.brute.dispatch(u, sets_.shadeBrute.set(f.slot), {batch, from, to}, tiles.x,
                                        tiles.y);

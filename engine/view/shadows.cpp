@@ -236,9 +236,8 @@ uint32_t Shadows::lightsPerBatch(glm::uvec2 tileCount) const noexcept
                       module_.device.limits.maxComputeWorkGroupCount[2]);
 }
 
-void Shadows::recordBatch(const gpu::Frame& f, const FramePlan&, uint32_t type,
-                          const gpu::LightBatch& batch, glm::uvec2 firstPixel,
-                          glm::uvec2 tileCount) const noexcept
+void Shadows::recordBatch(const gpu::Frame& f, uint32_t type, const gpu::LightBatch& batch,
+                          glm::uvec2 firstPixel, glm::uvec2 tileCount) const noexcept
 {
     module_.kernels.shade.visibility(type).dispatch(
         f, visibilitySets_.set(setOf(f, type)),

@@ -52,9 +52,8 @@ public:
     // Returns how many lights recordBatch() can take at once.
     uint32_t lightsPerBatch(glm::uvec2 tileCount) const noexcept;
     // Finds the visibility of the lights of a batch in tiles from a pixel on. Ends with a barrier.
-    void recordBatch(const gpu::Frame& frame, const FramePlan& plan, uint32_t type,
-                     const gpu::LightBatch& batch, glm::uvec2 firstPixel,
-                     glm::uvec2 tileCount) const noexcept;
+    void recordBatch(const gpu::Frame& frame, uint32_t type, const gpu::LightBatch& batch,
+                     glm::uvec2 firstPixel, glm::uvec2 tileCount) const noexcept;
     // Counts what recordListed(), or recordBatch() with this batch for all tiles, has found.
     void recordCounts(const gpu::Frame& frame, const FramePlan& plan, uint32_t type,
                       const gpu::LightBatch& batch) const noexcept;

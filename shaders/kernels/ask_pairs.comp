@@ -56,6 +56,13 @@ layout(scalar, binding = SHADOW_PAGE_SLOTS) writeonly buffer PageSlots
 
 #include "kernels/common/tile_work_lists.glsl"
 
+// Appends a tile to the work lists of shade_unlisted, and counts the cluster.
+void appendUnlisted(uint tile)
+{
+    atomicAdd(counters.unlistedClusters, 1u);
+    APPEND_TILE(unlisted, unlistedTiles, tile, UNLISTED_BITS, ANY_HEIGHT)
+}
+
 shared uint firstSlot; // of the present page
 
 // Takes `count` slots and returns the first. Sets up the groups of pair_visibility that the records

@@ -74,11 +74,11 @@ uint lightVisibility(uint light, ShadingPoint p, float depthError, bool asks, ou
     q.position = p.position;
     q.depthError = depthError;
     q.layers = shadowView.layers;
-    q.ignored = (facetShape(light).shape.flags >> LIGHT_UNSHADOWED_BY_SHIFT &
-                 ((1u << OCCLUDER_LAYER_COUNT) - 1u))
+    const uint flags = facetShape(light).shape.flags;
+    q.ignored = (flags >> LIGHT_UNSHADOWED_BY_SHIFT & ((1u << OCCLUDER_LAYER_COUNT) - 1u))
                 << OCCLUDER_LAYERS_SHIFT;
     const TreeSpace tree = TreeSpace(shadowView.viewFromTree, shadowView.viewInTree);
-    const uvec2 lit = visiblePoints(q, tree, asks && !isEmpty(facetOf(q).members), isFinished);
+    const uvec2 lit = visiblePoints(q, tree, asks && (flags & LIGHT_UNSHADOWED) == 0u, isFinished);
     if (!asks)
         return SHARES_UNASKED;
     const uvec2 shares = uvec2(visibleShares(facetOf(q), pointCount, lit, p) * SHARE_UNIT + 0.5);

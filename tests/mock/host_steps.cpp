@@ -33,24 +33,9 @@ CndResult setLights(Host& h, CndLightType type, uint32_t count, CndError* error)
     return result;
 }
 
-template <typename Frame>
-Frame surfaces()
-{
-    const VkImageView any = MockVulkan::imageView();
-    return {.structSize = sizeof(Frame),
-            .width = 64,
-            .height = 48,
-            .camera = MockVulkan::camera(),
-            .normalRoughness = any,
-            .albedo = any,
-            .specular = any,
-            .depth = any,
-            .radiance = any};
-}
-
 CndResult recordTubes(Host& h, CndError* error)
 {
-    CndLightingFrame frame = surfaces<CndLightingFrame>();
+    CndLightingFrame frame = surfacesOf<CndLightingFrame>();
     frame.frameSlot = 1;
     frame.specularMethod = CND_SPECULAR_CONIC;
     return cndRecordLighting(h.view, MockVulkan::commandBuffer(), &frame, error);
@@ -147,7 +132,7 @@ std::vector<Step> editSteps()
          }},
         {"record", true,
          [](Host& h, CndError* error) {
-             CndLightingFrame frame = surfaces<CndLightingFrame>();
+             CndLightingFrame frame = surfacesOf<CndLightingFrame>();
              frame.specularMethod = CND_SPECULAR_CONIC;
              frame.countPairs = VK_TRUE;
              frame.influence = {.rule = CND_INFLUENCE_BY_ERROR, .maxError = 0.1f, .exposure = 1};
@@ -162,14 +147,14 @@ std::vector<Step> editSteps()
          }},
         {"record with the added pipelines", true,
          [](Host& h, CndError* error) {
-             CndLightingFrame frame = surfaces<CndLightingFrame>();
+             CndLightingFrame frame = surfacesOf<CndLightingFrame>();
              frame.specularMethod = CND_SPECULAR_KARIS;
              frame.countPairs = VK_TRUE;
              return cndRecordLighting(h.view, MockVulkan::commandBuffer(), &frame, error);
          }},
         {"record overlay", true,
          [](Host& h, CndError* error) {
-             const CndLightingFrame frame = surfaces<CndLightingFrame>();
+             const CndLightingFrame frame = surfacesOf<CndLightingFrame>();
              const CndSurfaceOverlay overlay{.structSize = sizeof overlay,
                                              .image = MockVulkan::imageView()};
              return cndRecordSurfaceOverlay(h.view, MockVulkan::commandBuffer(), &frame, &overlay,
@@ -286,7 +271,7 @@ std::vector<Step> moduleSteps()
          }},
         {"record environment", true,
          [](Host& h, CndError* error) {
-             CndEnvironmentFrame frame = surfaces<CndEnvironmentFrame>();
+             CndEnvironmentFrame frame = surfacesOf<CndEnvironmentFrame>();
              for (int i = 0; i < 3; ++i)
                  frame.worldFromEnvironment[4 * i] = 1;
              frame.scale = 1;

@@ -41,6 +41,22 @@ struct Host {
     void destroy();
 };
 
+// Returns a frame of 64x48 pixels with images of the mock driver.
+template <typename Frame>
+Frame surfacesOf()
+{
+    const VkImageView any = MockVulkan::imageView();
+    return {.structSize = sizeof(Frame),
+            .width = 64,
+            .height = 48,
+            .camera = MockVulkan::camera(),
+            .normalRoughness = any,
+            .albedo = any,
+            .specular = any,
+            .depth = any,
+            .radiance = any};
+}
+
 struct Step {
     const char* name;
     bool records; // such a step may allocate nothing and may call recording functions only

@@ -55,18 +55,9 @@ CndResult addOccluders(Host& h, uint32_t first, uint32_t count, CndError* error)
 
 CndResult recordShadows(Host& h, CndError* error)
 {
-    const VkImageView any = MockVulkan::imageView();
-    const CndLightingFrame frame{.structSize = sizeof frame,
-                                 .width = 64,
-                                 .height = 48,
-                                 .camera = MockVulkan::camera(),
-                                 .normalRoughness = any,
-                                 .albedo = any,
-                                 .specular = any,
-                                 .depth = any,
-                                 .radiance = any,
-                                 .countPairs = VK_TRUE,
-                                 .shadowImage = any};
+    auto frame = surfacesOf<CndLightingFrame>();
+    frame.countPairs = VK_TRUE;
+    frame.shadowImage = MockVulkan::imageView();
     return cndRecordLighting(h.view, MockVulkan::commandBuffer(), &frame, error);
 }
 

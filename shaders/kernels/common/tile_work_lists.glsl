@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Work lists of tiles. The includer provides tiles[], counters, unlisted[] and unlistedTiles[], and
-// params with the light type.
+// Work lists of tiles. The includer provides tiles[], and params with the light type.
 
 // Appends a tile to a work list unless another cluster's lane has done so for this light type.
 // `height`: that of the tile, such as ANY_HEIGHT.
@@ -14,10 +13,3 @@
         if (place % TILE_ROW == 0u)                                                                \
             atomicAdd(works[work].groupsY, 1u);                                                    \
     }
-
-// Appends a tile to the work lists of shade_unlisted, and counts the cluster.
-void appendUnlisted(uint tile)
-{
-    atomicAdd(counters.unlistedClusters, 1u);
-    APPEND_TILE(unlisted, unlistedTiles, tile, UNLISTED_BITS, ANY_HEIGHT)
-}
