@@ -14,7 +14,6 @@
 #include "gpu/failure.h"
 #include "lights/abi_vectors.h"
 #include "shared/lighting_data.h"
-#include "shared/visibility_points.h"
 
 namespace candelabra::lighting
 {
@@ -224,48 +223,6 @@ OutlinePolygon outlinePolygon(const CndLight& light) noexcept
     out.axisV = glm::vec3(half.y * (along.x * unitV - along.y * unitU));
     for (uint32_t i = 0; i < out.count; ++i)
         out.corners[i] = glm::vec2(matched[i] / half);
-    return out;
-}
-
-EnclosingRectangle enclosingRectangle(const CndLight& light) noexcept
-{
-    const CndPolygon& polygon = *light.polygon;
-    const glm::dvec2 metres(glm::length(dvec3From(light.axisU)),
-                            glm::length(dvec3From(light.axisV)));
-    EnclosingRectangle out;
-    double smallest = INFINITY;
-    for (uint32_t i = 0; i < polygon.cornerCount; ++i) {
-        const glm::dvec2 edge = metres * (cornerOf(polygon, i + 1) - cornerOf(polygon, i));
-        const glm::dvec2 u = glm::normalize(edge), v(-u.y, u.x);
-        glm::dvec2 low(INFINITY), high(-INFINITY);
-        for (uint32_t j = 0; j < polygon.cornerCount; ++j) {
-            const glm::dvec2 corner = metres * cornerOf(polygon, j);
-            const glm::dvec2 at(glm::dot(u, corner), glm::dot(v, corner));
-            low = glm::min(low, at);
-            high = glm::max(high, at);
-        }
-        const glm::dvec2 middle = 0.5 * (low + high), half = 0.5 * (high - low);
-        if (half.x * half.y < smallest) {
-            smallest = half.x * half.y;
-            out.centre = (middle.x * u + middle.y * v) / metres;
-            out.halfU = half.x * u / metres;
-            out.halfV = half.y * v / metres;
-        }
-    }
-    const auto isIn = [&](const glm::vec2& point) {
-        const glm::dvec2 at =
-            out.centre + double(point.x) * out.halfU + double(point.y) * out.halfV;
-        bool inside = true;
-        for (uint32_t i = 0; i < polygon.cornerCount; ++i) {
-            const glm::dvec2 from = cornerOf(polygon, i), to = cornerOf(polygon, i + 1);
-            inside = inside && cross(to - from, at - from) >= 0;
-        }
-        return inside;
-    };
-    for (uint32_t i = 0; i < 64; ++i)
-        out.points64 |= uint64_t(isIn(gpu::POINTS_64[gpu::FACET_SQUARE * 64 + i])) << i;
-    for (uint32_t i = 0; i < 32; ++i)
-        out.points32 |= uint32_t(isIn(gpu::POINTS_32[gpu::FACET_SQUARE * 32 + i])) << i;
     return out;
 }
 

@@ -34,15 +34,6 @@ struct OutlinePolygon {
 // diagonal.
 OutlinePolygon outlinePolygon(const CndLight& light) noexcept;
 
-// The smallest rectangle that encloses a polygon, in metres. One of its sides lies on an edge of
-// the polygon. Shadows will be found for points of this rectangle (shaders/lib/visibility).
-struct EnclosingRectangle {
-    glm::dvec2 centre, halfU, halfV; // in the coordinates of the corners
-    uint64_t points64 = 0;           // which of the points of the square are in the polygon
-    uint32_t points32 = 0;
-};
-EnclosingRectangle enclosingRectangle(const CndLight& light) noexcept;
-
 // Returns the distance of the farthest corner from the light's position in metres. `light` is a
 // polygon light.
 float polygonRadius(const CndLight& light);

@@ -130,44 +130,6 @@ TEST(PolygonLights, ThinOnesAreDividedAlikeOnBothSides)
     }
 }
 
-// No rectangle in any of 1,800 directions is smaller. At least half of it is filled.
-TEST(PolygonLights, EnclosingRectanglesAreSmallest)
-{
-    for (uint32_t i = 0; i < 12; ++i) {
-        const CndLight light = lightOf(somePolygon(i));
-        const CndPolygon& polygon = *light.polygon;
-        const lighting::EnclosingRectangle r = lighting::enclosingRectangle(light);
-        const glm::dvec2 metres(2, 0.5);
-        const glm::dvec2 u = metres * r.halfU, v = metres * r.halfV;
-        EXPECT_NEAR(glm::dot(u, v), 0, 1e-12);
-        const double area = 4 * glm::length(u) * glm::length(v);
-        EXPECT_GE(lighting::polygonArea(polygon) * metres.x * metres.y, 0.5 * area) << i;
-        double smallest = INFINITY;
-        for (uint32_t k = 0; k < 1800; ++k) {
-            const double angle = k * std::numbers::pi / 3600;
-            const glm::dvec2 along(std::cos(angle), std::sin(angle)), across(-along.y, along.x);
-            glm::dvec2 low(INFINITY), high(-INFINITY);
-            for (uint32_t j = 0; j < polygon.cornerCount; ++j) {
-                const glm::dvec2 corner(polygon.corners[j][0], polygon.corners[j][1]);
-                const glm::dvec2 place = metres * corner;
-                low = glm::min(low, {glm::dot(along, place), glm::dot(across, place)});
-                high = glm::max(high, {glm::dot(along, place), glm::dot(across, place)});
-                const glm::dvec2 inside = metres * (corner - r.centre);
-                EXPECT_LE(std::abs(glm::dot(inside, u)), (1 + 1e-9) * glm::dot(u, u));
-                EXPECT_LE(std::abs(glm::dot(inside, v)), (1 + 1e-9) * glm::dot(v, v));
-            }
-            smallest = std::min(smallest, (high.x - low.x) * (high.y - low.y));
-        }
-        EXPECT_LE(area, smallest * (1 + 1e-9)) << i;
-        EXPECT_GE(std::popcount(r.points64), 29) << i;
-        EXPECT_GE(std::popcount(r.points32), 14) << i;
-    }
-    const CndPolygon square{4, {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
-    const lighting::EnclosingRectangle r = lighting::enclosingRectangle(lightOf(&square));
-    EXPECT_EQ(r.points64, ~uint64_t{0});
-    EXPECT_EQ(r.points32, ~uint32_t{0});
-}
-
 TEST(PolygonLights, GoodOnesAreAccepted)
 {
     for (uint32_t i = 0; i < 12; ++i)

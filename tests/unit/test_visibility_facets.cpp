@@ -2,6 +2,7 @@
 // Compares the visible shares of lights that the shaders' masks give (tools/formula) with rays to
 // the true emitters.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <iostream>
@@ -15,9 +16,9 @@
 #include "formula/visibility.h"
 #include "generate/random.h"
 #include "harness/full_tests.h"
-#include "lights/abi_vectors.h"
 #include "lights/polygon.h"
 #include "reference/brdf.h"
+#include "scene/polygons.h"
 #include "unit/emitter_rays.h"
 
 namespace candelabra::test
@@ -87,21 +88,20 @@ uint32_t pointsPerSide()
 
 formula::LightFacet polygonFacet(const Lamp& lamp, uint32_t count, formula::Light light)
 {
-    CndPolygon polygon{.cornerCount = uint32_t(lamp.corners.size()), .corners = {}};
-    for (size_t i = 0; i < lamp.corners.size(); ++i)
-        for (int k = 0; k < 2; ++k)
-            polygon.corners[i][k] = float(lamp.corners[i][k]);
-    CndLight given{};
-    lighting::setFloats(given.axisU, light.shape.axisU);
-    lighting::setFloats(given.axisV, light.shape.axisV);
-    given.polygon = &polygon;
-    const lighting::EnclosingRectangle r = lighting::enclosingRectangle(given);
     const glm::dvec3 u(light.shape.axisU), v(light.shape.axisV);
-    const auto inPlane = [&](const glm::dvec2& at) { return at.x * u + at.y * v; };
+    const double size = std::max(glm::length(u), glm::length(v));
+    std::vector<glm::dvec2> corners;
+    for (const auto& corner : lamp.corners)
+        corners.push_back(glm::dvec2(corner[0] * glm::length(u), corner[1] * glm::length(v)) /
+                          size);
+    const formula::EnclosingRectangle r = formula::enclosingRectangle(count, corners);
+    const auto inPlane = [&](const glm::dvec2& at) {
+        return size * (at.x * glm::normalize(u) + at.y * glm::normalize(v));
+    };
     light.centre += inPlane(r.centre);
     light.shape.axisU = inPlane(r.halfU);
     light.shape.axisV = inPlane(r.halfV);
-    return formula::lightFacet(count, {}, light, count == 64 ? r.points64 : r.points32);
+    return formula::lightFacet(count, {}, light, r.points);
 }
 
 // Places the lamp, with its facet of `count` points and the points of its true emitter.
@@ -372,6 +372,46 @@ TEST(VisibilityFacets, Tubes)
                  {0.093, 0.103, 0.128, 0.086});
     expectWithin({"tube 0.6 / 0.1 at 0.15..0.5", CND_LIGHT_TUBE, 0.3, 0.1, 0.15, 0.5},
                  {0.095, 0.102, 0.178, 0.100});
+}
+
+// No rectangle in any of 1,800 directions is smaller. At least half of it is filled.
+TEST(VisibilityFacets, EnclosingRectanglesAreSmallest)
+{
+    for (uint32_t i = 0; i < 12; ++i) {
+        const CndPolygon& polygon = *app::somePolygon(i);
+        const double width = 1, height = 0.25;
+        std::vector<glm::dvec2> corners;
+        for (uint32_t j = 0; j < polygon.cornerCount; ++j)
+            corners.emplace_back(width * polygon.corners[j][0], height * polygon.corners[j][1]);
+        const formula::EnclosingRectangle r = formula::enclosingRectangle(64, corners);
+        EXPECT_NEAR(glm::dot(r.halfU, r.halfV), 0, 1e-12);
+        const double area = 4 * glm::length(r.halfU) * glm::length(r.halfV);
+        EXPECT_GE(lighting::polygonArea(polygon) * width * height, 0.5 * area) << i;
+        for (const glm::dvec2& corner : corners) {
+            EXPECT_LE(std::abs(glm::dot(corner - r.centre, r.halfU)),
+                      (1 + 1e-9) * glm::dot(r.halfU, r.halfU));
+            EXPECT_LE(std::abs(glm::dot(corner - r.centre, r.halfV)),
+                      (1 + 1e-9) * glm::dot(r.halfV, r.halfV));
+        }
+        double smallest = INFINITY;
+        for (uint32_t k = 0; k < 1800; ++k) {
+            const double angle = k * std::numbers::pi / 3600;
+            const glm::dvec2 along(std::cos(angle), std::sin(angle)), across(-along.y, along.x);
+            glm::dvec2 low(INFINITY), high(-INFINITY);
+            for (const glm::dvec2& corner : corners) {
+                const glm::dvec2 at(glm::dot(along, corner), glm::dot(across, corner));
+                low = glm::min(low, at);
+                high = glm::max(high, at);
+            }
+            smallest = std::min(smallest, (high.x - low.x) * (high.y - low.y));
+        }
+        EXPECT_LE(area, smallest * (1 + 1e-9)) << i;
+        EXPECT_GE(std::popcount(r.points), 29) << i;
+        EXPECT_GE(std::popcount(formula::enclosingRectangle(32, corners).points), 14) << i;
+    }
+    const std::vector<glm::dvec2> square{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    EXPECT_EQ(formula::enclosingRectangle(64, square).points, ~uint64_t{0});
+    EXPECT_EQ(formula::enclosingRectangle(32, square).points, uint64_t{UINT32_MAX});
 }
 
 } // namespace candelabra::test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "formula/visibility.h"
 
+#include <algorithm>
 #include <vector>
 
 #include <glm/matrix.hpp>
@@ -73,6 +74,17 @@ LightFacet lightFacet(uint32_t count, const Receiver& receiver, const Light& lig
             f.front.roundEnd,
             f.shape,
             Visibility::bitsOf(f.members) & polygonPoints};
+}
+
+EnclosingRectangle enclosingRectangle(uint32_t count, std::span<const glm::dvec2> corners)
+{
+    Visibility shaders(count);
+    Visibility::FlatPolygon polygon{};
+    polygon.count = uint(corners.size());
+    std::ranges::copy(corners, polygon.corners);
+    const auto r = shaders.enclosingRectangle(polygon);
+    return {r.centre, r.halfU, r.halfV,
+            Visibility::bitsOf(shaders.pointsInside(count, polygon, r))};
 }
 
 uint64_t hiddenPoints(const LightFacet& facet, const OccludingMesh& mesh, const Receiver& receiver,

@@ -30,6 +30,15 @@ struct LightFacet {
 LightFacet lightFacet(uint32_t count, const Receiver& receiver, const Light& light,
                       uint64_t polygonPoints = ~uint64_t{0});
 
+// The smallest rectangle around a polygon, and which of its points are in the polygon.
+struct EnclosingRectangle {
+    glm::dvec2 centre, halfU, halfV;
+    uint64_t points = 0;
+};
+// `count`: 64 or 32 points. The corners of the polygon, at most MAX_RECORD_CORNERS, go
+// counterclockwise, and their coordinates are near 1.
+EnclosingRectangle enclosingRectangle(uint32_t count, std::span<const glm::dvec2> corners);
+
 using Triangle = std::array<glm::dvec3, 3>;
 // A mesh whose vertices are in a space of its own; its transform is linear.
 struct OccludingMesh {
