@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights with a shadow map of the host, beside lights without one: a spot behind the camera throws
-// the shadow of a window frame on a wall, and a lamp of a second light set brightens all of it. The
-// shadow term is GLSL of the host inside Candelabra's kernels. Writes embed_shadow_map.ppm (or the
-// file named as argument), compares the wall with its closed form, pixel by pixel, and exits with 1
-// if it is wrong.
+// This host has a shadow map of its own. A spot behind the camera throws the shadow of a window
+// frame on a wall, and a lamp of a second light set, which has no shadow map, brightens all of it.
+// The shadow term is GLSL of the host inside Candelabra's kernels. The sample writes
+// embed_shadow_map.ppm (or the file named as argument), compares the wall with its closed form,
+// pixel by pixel, and exits with 1 if it is wrong.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

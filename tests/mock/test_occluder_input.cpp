@@ -264,7 +264,7 @@ TEST_F(OccluderInput, TheDeviceLimitsTheNumbers)
             "cndAddOccluders: " + std::to_string(most + 1) +
                 " occluders are more than the device can take, " + std::to_string(most),
             CND_ERROR_UNSUPPORTED);
-    // Those that have been removed do not count.
+    // Occluders that have been removed do not count towards this limit.
     ids.pop_back();
     ASSERT_TRUE(lighting_.addOccluders(std::span(instances).first(most - 1), ids));
     const std::span<CndOccluderId> some = std::span(ids).first(10);

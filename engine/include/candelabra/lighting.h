@@ -359,10 +359,10 @@ typedef struct CndLightingStats {
     // which the pixel sees a part of the light, and those of which it sees nothing. The same pixels
     // count as above.
     uint64_t askedPairs, partlyLitPairs, darkPairs;
-    // Of CndLightingViewDesc::shadowBudget. Each pair of a cluster and a light takes a slot, 256
-    // bytes. shadowSlots: the most that one light type took. missingShadowSlots: how many more
-    // pairs, of all types, found none; their clusters count in unlistedClusters. Brute force and
-    // distant lights do not count.
+    // Each pair of a cluster and a light takes a slot, 256 bytes of
+    // CndLightingViewDesc::shadowBudget. shadowSlots: the most that one light type took.
+    // missingShadowSlots: how many more pairs, of all types, found none; their clusters count in
+    // unlistedClusters. Brute force and distant lights do not count.
     uint32_t shadowSlots, missingShadowSlots;
     // On devices that limit loops: pairs whose search for occluders was cut off. They have fewer
     // shadows than they should.

@@ -170,7 +170,7 @@ typedef struct CndDeviceLights {
     // metres. These members affect only speed.
     float boundsMin[3], boundsMax[3];
     float influenceRadius;
-    // Of all the lights, as in CndLight.
+    // These three hold for every light of the buffer. They are as in CndLight.
     uint32_t layers;
     VkBool32 unshadowed;
     uint32_t unshadowedBy;

@@ -15,8 +15,8 @@
 // lx, on a surface that faces the light. Any light may have "layers", the numbers of its layers,
 // such as [0, 3] (default: all).
 //
-// Of shadows, "unshadowed" is true for a light that nothing shadows (default: false), and
-// "unshadowed_by" are the numbers of the occluder layers that do not shadow it, such as [1]
+// Any light may have "unshadowed": true means that nothing shadows it (default: false). Any light
+// may have "unshadowed_by", the numbers of the occluder layers that do not shadow it, such as [1]
 // (default: none). Objects have an "occluder_layer" (default: 0). In meshes of a glTF source, the
 // bodies of the file's own lamps have layer 1 (gltf/lamp_bodies.h).
 #pragma once
