@@ -23,8 +23,8 @@ VkDeviceSize blocksOf(VkDeviceSize bytes)
 } // namespace
 
 UploadedBuffer::UploadedBuffer(const Device& device, Recordings& recordings, const char* name,
-                               VkDeviceSize capacity)
-    : device_(device), recordings_(recordings), name_(name)
+                               VkDeviceSize capacity, bool texels)
+    : device_(device), recordings_(recordings), name_(name), texels_(texels)
 {
     if (capacity) {
         buffer_ = create(capacity);
@@ -34,10 +34,15 @@ UploadedBuffer::UploadedBuffer(const Device& device, Recordings& recordings, con
 
 Buffer UploadedBuffer::create(VkDeviceSize bytes) const
 {
-    return createBuffer(device_, name_, bytes,
-                        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-                            VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                        MemoryUse::Device);
+    const VkBufferUsageFlags more = texels_ ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : 0;
+    Buffer out = createBuffer(device_, name_, bytes,
+                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                                  VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                                  VK_BUFFER_USAGE_TRANSFER_DST_BIT | more,
+                              MemoryUse::Device);
+    if (texels_)
+        createTexelView(device_, out);
+    return out;
 }
 
 void UploadedBuffer::reserve(VkDeviceSize bytes, VkDeviceSize changed, size_t ranges)

@@ -15,9 +15,10 @@ class UploadedBuffer
 {
 public:
     // `name` is a literal. `capacity`: bytes for which to make room; with 0 there is no buffer
-    // until the first reserve(). `device` and `recordings` must outlive this object.
+    // until the first reserve(). `texels`: whether it can also be bound as texels of four floats.
+    // `device` and `recordings` must outlive this object.
     UploadedBuffer(const Device& device, Recordings& recordings, const char* name,
-                   VkDeviceSize capacity);
+                   VkDeviceSize capacity, bool texels = false);
 
     // Makes room for contents of `bytes` bytes, and prepares the upload of `changed` more of them,
     // in `ranges` ranges. Throws Failure, and then leaves the contents as they were.
@@ -46,6 +47,7 @@ private:
     const Device& device_;
     Recordings& recordings_;
     const char* name_;
+    bool texels_;
     Buffer buffer_;
     std::vector<uint8_t> changed_; // by block: 1 if something in it has changed
     size_t changedBlocks_ = 0;

@@ -15,7 +15,6 @@ namespace
 {
 
 constexpr VkDeviceSize occluderRecordBytes = sizeof(gpu::OccluderRecord);
-constexpr VkDeviceSize nodeBytes = sizeof(gpu::OccluderNode);
 // A tree is made anew when the surface of its nodes has grown by this factor, or when so large a
 // share of its places is without an instance.
 constexpr double surfaceGrowth = 2;
@@ -31,8 +30,7 @@ glm::dvec3 positionOf(const gpu::OccluderRecord& record)
 InstanceTable::InstanceTable(const gpu::Device& device, gpu::Recordings& recordings,
                              MeshTable& meshes, uint32_t capacity)
     : meshes_(meshes),
-      recordBuffer_(device, recordings, "occluder records", capacity * occluderRecordBytes),
-      nodeBuffer_(device, recordings, "occluder instance nodes", 2 * capacity * nodeBytes)
+      recordBuffer_(device, recordings, "occluder records", capacity * occluderRecordBytes)
 {
 }
 
@@ -54,7 +52,7 @@ void InstanceTable::reserve(size_t removed, size_t added)
     if (!most)
         return;
     recordBuffer_.reserve(most * occluderRecordBytes, most * occluderRecordBytes, 1);
-    nodeBuffer_.reserve(2 * most * nodeBytes, 2 * most * nodeBytes, 1);
+    meshes_.reserveInstanceNodes(uint32_t(2 * most));
 }
 
 void InstanceTable::add(std::span<const OccluderInstance> instances, OccluderId* ids) noexcept
@@ -186,7 +184,7 @@ void InstanceTable::fitAncestors(uint32_t place) noexcept
             break;
         nodes_[node].low = box.low;
         nodes_[node].high = box.high;
-        nodeBuffer_.markChanged(node * nodeBytes, nodeBytes);
+        meshes_.writeInstanceNodes(node, {&nodes_[node], 1});
         surface_ += halfSurface(box) - halfSurface(before);
         if (node == 0)
             break;
@@ -201,6 +199,7 @@ void InstanceTable::dropTree() noexcept
     if (!treeIsMade_)
         return;
     treeIsMade_ = false;
+    meshes_.markInstanceNodes();
     uint32_t kept = 0;
     for (uint32_t place = 0; place < places(); ++place)
         if (placed_[place].slot != gpu::IdTable::none)
@@ -233,7 +232,7 @@ void InstanceTable::makeTree() noexcept
         surface_ += halfSurface(boxOf(node));
     surfaceAtFirst_ = surface_;
     recordBuffer_.markChanged(0, records_.size() * occluderRecordBytes);
-    nodeBuffer_.markChanged(0, nodes_.size() * nodeBytes);
+    meshes_.writeInstanceNodes(0, nodes_);
     treeIsMade_ = true;
 }
 
@@ -284,7 +283,6 @@ void InstanceTable::recordUpload(const gpu::Frame& frame, uint64_t recording) no
     if (!treeIsMade_)
         makeTree();
     recordBuffer_.recordUpload(frame, recording, std::as_bytes(std::span(records_)));
-    nodeBuffer_.recordUpload(frame, recording, std::as_bytes(std::span(nodes_)));
 }
 
 } // namespace candelabra::lighting

@@ -46,16 +46,16 @@ public:
 
     bool isChanged() const
     {
-        return !treeIsMade_ || recordBuffer_.isChanged() || nodeBuffer_.isChanged();
+        return !treeIsMade_ || recordBuffer_.isChanged();
     }
-    // Makes the tree anew if it needs that, and records the upload of what has changed.
+    // Makes the tree anew if it needs that, and records the upload of what has changed but for the
+    // nodes, which are in the buffer of the meshes'.
     void recordUpload(const gpu::Frame& frame, uint64_t recording) noexcept;
 
     // The following hold after recordUpload().
     const glm::dvec3& origin() const { return origin_; } // of the tree, in the world
     std::span<const gpu::OccluderNode> nodes() const { return nodes_; }
     std::span<const gpu::OccluderRecord> records() const { return records_; }
-    const gpu::Buffer& nodeBuffer() const { return nodeBuffer_.buffer(); }
     const gpu::Buffer& recordBuffer() const { return recordBuffer_.buffer(); }
 
 private:
@@ -96,7 +96,7 @@ private:
     std::vector<gpu::OccluderRecord> sortedRecords_;
     std::vector<double> coordinates_;
 
-    gpu::UploadedBuffer recordBuffer_, nodeBuffer_;
+    gpu::UploadedBuffer recordBuffer_;
 };
 
 } // namespace candelabra::lighting

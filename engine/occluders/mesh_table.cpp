@@ -11,6 +11,7 @@ namespace candelabra::lighting
 namespace
 {
 
+constexpr const char* addCall = "cndAddOccluderMeshes";
 constexpr uint32_t positionBytes = 3 * sizeof(float);
 constexpr float maxPosition = 1e15f;
 constexpr uint32_t maxTriangles = 1u << 28; // of a mesh: leaves hold the first one's index
@@ -61,7 +62,7 @@ void checkStride(const std::string& name, uint32_t stride)
 
 void checkMesh(const OccluderMesh& mesh, size_t index)
 {
-    const std::string name = "cndAddOccluderMeshes: mesh " + std::to_string(index) + ": ";
+    const std::string name = std::string(addCall) + ": mesh " + std::to_string(index) + ": ";
     if (!mesh.positions)
         gpu::failArgument(name + "positions is null");
     checkStride(name, mesh.stride);
@@ -81,10 +82,11 @@ void checkMesh(const OccluderMesh& mesh, size_t index)
     Positions(mesh.positions, mesh.stride, mesh.vertexCount).check(name + "positions");
 }
 
-void requireRange(const gpu::Device& device, uint64_t count, uint64_t elementBytes)
+void requireRange(const char* call, const gpu::Device& device, uint64_t count,
+                  uint64_t elementBytes)
 {
     if (const uint64_t room = device.limits.maxStorageBufferRange; count * elementBytes > room)
-        gpu::failUnsupported("cndAddOccluderMeshes: the meshes need a buffer of " +
+        gpu::failUnsupported(std::string(call) + ": the occluders need a buffer of " +
                              std::to_string(count * elementBytes) +
                              " bytes, more than the device's maxStorageBufferRange, " +
                              std::to_string(room));
@@ -157,12 +159,16 @@ void MeshTable::Pool<T>::changed(uint32_t first, size_t count) noexcept
     buffer.markChanged(VkDeviceSize(first) * sizeof(T), count * sizeof(T));
 }
 
-MeshTable::MeshTable(const gpu::Device& device, gpu::Recordings& recordings, uint32_t capacity)
+MeshTable::MeshTable(const gpu::Device& device, gpu::Recordings& recordings, uint32_t capacity,
+                     uint32_t instanceNodeCapacity)
     : device_(device),
+      instanceNodeCapacity_(instanceNodeCapacity),
       nodes_{.buffer = {device, recordings, "occluder nodes",
-                        capacity * VkDeviceSize(sizeof(gpu::OccluderNode))}},
+                        (VkDeviceSize(capacity) + instanceNodeCapacity) *
+                            sizeof(gpu::OccluderNode),
+                        true}},
       triangles_{.buffer = {device, recordings, "occluder triangles",
-                            capacity * VkDeviceSize(sizeof(gpu::OccluderTriangle))}}
+                            capacity * VkDeviceSize(sizeof(gpu::OccluderTriangle)), true}}
 {
 }
 
@@ -175,8 +181,8 @@ void MeshTable::giveBack(const Mesh& mesh) noexcept
 // Does everything in an addition that can fail, after the ranges have been taken.
 void MeshTable::makeRoom(std::span<const Built> built)
 {
-    requireRange(device_, nodes_.ranges.end(), sizeof(gpu::OccluderNode));
-    requireRange(device_, triangles_.ranges.end(), sizeof(gpu::OccluderTriangle));
+    requireRange(addCall, device_, nodes_.ranges.end(), sizeof(gpu::OccluderNode));
+    requireRange(addCall, device_, triangles_.ranges.end(), sizeof(gpu::OccluderTriangle));
     VkDeviceSize nodes = 0, triangles = 0;
     for (const Built& b : built) {
         nodes += b.nodes.size();
@@ -193,7 +199,7 @@ void MeshTable::add(std::span<const OccluderMesh> meshes, OccluderMeshId* ids)
         checkMesh(meshes[i], i);
         triangles += meshes[i].triangleCount;
     }
-    requireRange(device_, triangles, sizeof(gpu::OccluderTriangle));
+    requireRange(addCall, device_, triangles, sizeof(gpu::OccluderTriangle));
     std::vector<Built> built;
     for (const OccluderMesh& mesh : meshes)
         built.push_back(build(mesh));
@@ -224,6 +230,31 @@ void MeshTable::add(std::span<const OccluderMesh> meshes, OccluderMeshId* ids)
     }
 }
 
+void MeshTable::reserveInstanceNodes(uint32_t count)
+{
+    const auto [first, present] = instanceNodes_;
+    if (count <= present) {
+        nodes_.reserve(present, 1);
+        return;
+    }
+    nodes_.ranges.reserve(1);
+    const uint32_t room = std::max({count, present + present / 2, instanceNodeCapacity_});
+    const uint32_t moved = nodes_.ranges.take(room);
+    try {
+        requireRange("cndAddOccluders", device_, nodes_.ranges.end(), sizeof(gpu::OccluderNode));
+        nodes_.reserve(room, 1);
+    } catch (...) {
+        nodes_.ranges.give(moved, room);
+        throw;
+    }
+    nodes_.contents.resize(std::max<size_t>(nodes_.contents.size(), moved + room));
+    std::copy_n(nodes_.contents.begin() + first, present, nodes_.contents.begin() + moved);
+    if (present)
+        nodes_.ranges.give(first, present);
+    instanceNodes_ = {moved, room};
+    markInstanceNodes();
+}
+
 void MeshTable::replacePositions(OccluderMeshId id, const float* positions, uint32_t stride)
 {
     const char* const call = "cndReplaceOccluderPositions";
@@ -232,7 +263,7 @@ void MeshTable::replacePositions(OccluderMeshId id, const float* positions, uint
     const Mesh& mesh = (*this)[id];
     const Positions from(positions, stride, mesh.vertexCount);
     from.check(std::string(call) + ": positions");
-    nodes_.reserve(mesh.nodeCount, 1);
+    nodes_.reserve(VkDeviceSize(mesh.nodeCount) + instanceNodes_.count, 2);
     triangles_.reserve(mesh.triangleCount, 1);
     gpu::OccluderTriangle* const triangles = &triangles_.contents[mesh.firstTriangle];
     for (uint32_t i = 0; i < mesh.triangleCount; ++i)
@@ -256,6 +287,11 @@ void MeshTable::remove(std::span<const OccluderMeshId> ids)
         (*this)[id] = {};
         ids_.remove(gpu::IdTable::slotOf(id));
     }
+}
+
+void MeshTable::markInstanceNodes() noexcept
+{
+    nodes_.changed(instanceNodes_.first, instanceNodes_.count);
 }
 
 void MeshTable::recordUpload(const gpu::Frame& frame, uint64_t recording) noexcept

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The meshes of occluders: their triangles in the order of their trees, and how these reach the
-// device.
+// device. The nodes of the tree over instances are in the same buffer as theirs.
 #pragma once
 
 #include <span>
@@ -27,16 +27,30 @@ public:
         std::vector<glm::uvec3> corners;
     };
 
-    // `capacity`: triangles for which to make room. `device` and `recordings` must outlive the
-    // table.
-    MeshTable(const gpu::Device& device, gpu::Recordings& recordings, uint32_t capacity);
+    // `capacity`: triangles for which to make room. `instanceNodeCapacity`: the same for the nodes
+    // of the tree over instances. `device` and `recordings` must outlive the table.
+    MeshTable(const gpu::Device& device, gpu::Recordings& recordings, uint32_t capacity,
+              uint32_t instanceNodeCapacity);
 
     // Each call does all that it is asked for, or throws gpu::Failure and leaves the table as it
     // was.
     void add(std::span<const OccluderMesh> meshes, OccluderMeshId* ids);
-    // `positions`: as OccluderMesh::positions, as many as the mesh has.
+    // `positions`: as OccluderMesh::positions, as many as the mesh has. Also prepares the upload of
+    // the tree over instances.
     void replacePositions(OccluderMeshId id, const float* positions, uint32_t stride);
     void remove(std::span<const OccluderMeshId> ids);
+
+    // Makes room for so many nodes of the tree over instances, and for their upload. Throws
+    // gpu::Failure and then leaves everything as it was.
+    void reserveInstanceNodes(uint32_t count);
+    // The next upload takes all nodes of this tree, which are written before.
+    void markInstanceNodes() noexcept;
+    // Writes nodes of this tree, from its node `first` on. There must be room for them.
+    void writeInstanceNodes(uint32_t first, std::span<const gpu::OccluderNode> nodes) noexcept
+    {
+        nodes_.write(instanceNodes_.first + first, nodes);
+    }
+    uint32_t firstInstanceNode() const { return instanceNodes_.first; }
 
     bool has(OccluderMeshId id) const { return ids_.has(id); }
     Mesh& operator[](OccluderMeshId id) { return meshes_[gpu::IdTable::slotOf(id)]; }
@@ -76,6 +90,10 @@ private:
     void giveBack(const Mesh& mesh) noexcept;
 
     const gpu::Device& device_;
+    uint32_t instanceNodeCapacity_;
+    struct {
+        uint32_t first = 0, count = 0;
+    } instanceNodes_; // the range of the tree over instances
     gpu::IdTable ids_;
     std::vector<Mesh> meshes_; // indexed by slot
     Pool<gpu::OccluderNode> nodes_;

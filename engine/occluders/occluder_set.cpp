@@ -83,9 +83,10 @@ OccluderSet::OccluderSet(const gpu::Device& device, gpu::Recordings& recordings,
       recordings_(recordings),
       prepare_(std::move(prepare)),
       meshes_(device, recordings,
-              checkedCapacity("triangleCapacity", triangleCapacity, maxMeshTriangles(device))),
-      instances_(device, recordings, meshes_,
-                 checkedCapacity("instanceCapacity", instanceCapacity, maxOccluders(device.limits)))
+              checkedCapacity("triangleCapacity", triangleCapacity, maxMeshTriangles(device)),
+              2 * checkedCapacity("instanceCapacity", instanceCapacity,
+                                  maxOccluders(device.limits))),
+      instances_(device, recordings, meshes_, instanceCapacity)
 {
 }
 
@@ -174,8 +175,8 @@ void OccluderSet::remove(std::span<const OccluderId> ids)
 
 void OccluderSet::recordUpload(const gpu::Frame& frame, uint64_t recording) noexcept
 {
-    meshes_.recordUpload(frame, recording);
     instances_.recordUpload(frame, recording);
+    meshes_.recordUpload(frame, recording);
 }
 
 } // namespace candelabra::lighting

@@ -122,6 +122,7 @@ void View::writeShadeBindings(const CndLightingFrame& frame, const surfaces::GBu
         listed.add(
             std::array{shadows_->slots(), shadows_->pageSlots(), shadows_->view(frame.frameSlot)});
         walked.add(shadows_->occluderBindings(frame.frameSlot));
+        walked.add(shadows_->occluderTexels());
         walked.add(std::array{Shadows::counters(counters_)});
     }
     sets_.shadeTiles.write(set,

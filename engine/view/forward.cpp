@@ -19,8 +19,8 @@ std::vector<gpu::ReflectedBinding> bindings(bool shadows)
         {gpu::FORWARD_SHAPES, storage, 1}, {gpu::FORWARD_NODES, storage, 1},
         {gpu::FORWARD_DFG, texels, 1},     {gpu::FORWARD_IDS, storage, 1}};
     if (shadows) {
-        for (const uint32_t binding : {gpu::SHADOW_INSTANCE_NODES, gpu::SHADOW_INSTANCES,
-                                       gpu::SHADOW_NODES, gpu::SHADOW_TRIANGLES})
+        for (const uint32_t binding :
+             {gpu::SHADOW_INSTANCES, gpu::SHADOW_NODES, gpu::SHADOW_TRIANGLES})
             out.push_back({binding, storage, 1});
         out.push_back({gpu::SHADOW_POINTS, texels, 1});
         out.push_back({gpu::SHADOW_VIEW, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1});

@@ -46,6 +46,7 @@ gpu::ShadowView shadowView(const Module& module, const FramePlan& plan)
     return {.viewFromTree = glm::mat3(rotation),
             .viewInTree = glm::vec3(eye - module.occluders->instances().origin()),
             .layers = plan.shadows ? layersOf(plan.frame.layers) : 0,
+            .firstNode = module.occluders->meshes().firstInstanceNode(),
             .depthStep = depthStep(module.gbuffer.desc()),
             .points = module.desc.shadows.points,
             .walkTurns = walkTurns(module.device)};
@@ -114,19 +115,29 @@ Binding Shadows::view(uint32_t slot) const
             .range = sizeof(gpu::ShadowView)};
 }
 
-std::array<Binding, 6> Shadows::occluderBindings(uint32_t slot) const
+// Before there are occluders, a buffer that no walk reads stands for theirs.
+std::array<Binding, 5> Shadows::occluderBindings(uint32_t slot) const
 {
     const OccluderSet& occluders = *module_.occluders;
-    // Before there are occluders, a buffer that no walk reads stands for theirs.
     const auto bind = [&](uint32_t binding, const gpu::Buffer& buffer) {
         return Binding::of(binding, buffer.get() ? buffer : pageSlots_);
     };
-    return {bind(gpu::SHADOW_INSTANCE_NODES, occluders.instances().nodeBuffer()),
-            bind(gpu::SHADOW_INSTANCES, prepared_.buffer()),
+    return {bind(gpu::SHADOW_INSTANCES, prepared_.buffer()),
             bind(gpu::SHADOW_NODES, occluders.meshes().nodes()),
             bind(gpu::SHADOW_TRIANGLES, occluders.meshes().triangles()),
             Binding::ofTexels(gpu::SHADOW_POINTS, points_),
             view(slot)};
+}
+
+std::array<Binding, 3> Shadows::occluderTexels() const
+{
+    const OccluderSet& occluders = *module_.occluders;
+    const auto bind = [&](uint32_t binding, const gpu::Buffer& buffer) {
+        return Binding::ofTexels(binding, buffer.get() ? buffer : module_.albedoTable.buffer());
+    };
+    return {bind(gpu::SHADOW_INSTANCE_TEXELS, prepared_.buffer()),
+            bind(gpu::SHADOW_NODE_TEXELS, occluders.meshes().nodes()),
+            bind(gpu::SHADOW_TRIANGLE_TEXELS, occluders.meshes().triangles())};
 }
 
 Binding Shadows::counters(const gpu::Buffer& counters)
@@ -148,6 +159,7 @@ void Shadows::writeBindings(const FramePlan& plan, const Inputs& in) const
                               Binding::ofTexels(SHADOW_POINTS, points_)});
     BindingList surfaces;
     surfaces.add(occluderBindings(slot));
+    surfaces.add(occluderTexels());
     surfaces.add(in.gbuffer.bindings());
     const Binding shadowCounters = counters(in.counters);
     Binding askCounters = shadowCounters;

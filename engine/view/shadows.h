@@ -32,7 +32,9 @@ public:
     // Writes the bindings of the frame's kernels.
     void writeBindings(const FramePlan& plan, const Inputs& inputs) const;
     // The bindings through which kernels walk through occluders.
-    std::array<gpu::Binding, 6> occluderBindings(uint32_t slot) const;
+    std::array<gpu::Binding, 5> occluderBindings(uint32_t slot) const;
+    // The same buffers as texels. Bindings of the forward set are without them.
+    std::array<gpu::Binding, 3> occluderTexels() const;
     // The binding SHADE_COUNTERS of kernels that count shadows.
     static gpu::Binding counters(const gpu::Buffer& counters);
     gpu::Binding view(uint32_t slot) const;

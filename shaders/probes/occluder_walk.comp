@@ -18,22 +18,31 @@ layout(scalar, binding = PROBE_OUTPUT) writeonly buffer Output
 {
     WalkProbeOutput outputs[];
 };
-layout(scalar, binding = WALK_PROBE_INSTANCE_NODES) readonly buffer InstanceNodes
-{
-    OccluderNode instanceNodes[];
-};
 layout(scalar, binding = WALK_PROBE_INSTANCES) readonly buffer Instances
 {
-    OccluderInstance occluderInstances[];
+    OccluderInstance instances[];
 };
 layout(scalar, binding = WALK_PROBE_NODES) readonly buffer Nodes
 {
-    OccluderNode occluderNodes[];
+    OccluderNode nodes[];
 };
 layout(scalar, binding = WALK_PROBE_TRIANGLES) readonly buffer Triangles
 {
-    OccluderTriangle occluderTriangles[];
+    OccluderTriangle triangles[];
 };
+
+OccluderInstance occluderInstance(uint at)
+{
+    return instances[at];
+}
+OccluderNode occluderNode(uint at)
+{
+    return nodes[at];
+}
+OccluderTriangle occluderTriangle(uint at)
+{
+    return triangles[at];
+}
 
 layout(scalar, binding = WALK_PROBE_TABLE) readonly buffer PointTable
 {
@@ -62,8 +71,10 @@ void testInstances(inout OccluderWalk w, OccluderQuery q, TreeSpace tree)
     uint turns = 0u;
     while (leafCount(w.leaf) != 0u) {
         changeTree(w, q, tree);
-        for (uint i = 0u; i < w.end; ++i) {
-            uint leaf = occluderNodes[w.firstNode + i].leaf;
+        const uint flags = occluderInstance(w.instance).flags;
+        const bool counts = (flags & q.layers) != 0u && (flags & q.ignored) == 0u;
+        for (uint i = 0u; counts && i < w.end; ++i) {
+            uint leaf = occluderNode(w.firstNode + i).leaf;
             for (; leafCount(leaf) != 0u; leaf = withoutFirst(leaf))
                 w.lit &= ~pointsHiddenBy(w, leafFirst(leaf), turns);
         }
@@ -73,8 +84,9 @@ void testInstances(inout OccluderWalk w, OccluderQuery q, TreeSpace tree)
 uvec2 visibleByTests(OccluderQuery q, TreeSpace tree)
 {
     OccluderWalk w = walkFromRoot();
-    for (uint i = 0u; i < instanceNodes[0].skip; ++i) {
-        w.leaf = instanceNodes[i].leaf;
+    const uint end = occluderNode(tree.firstNode).skip;
+    for (uint i = 0u; i < end; ++i) {
+        w.leaf = occluderNode(tree.firstNode + i).leaf;
         testInstances(w, q, tree);
     }
     return w.lit;
@@ -90,7 +102,7 @@ void main()
     q.depthError = 0.0;
     q.layers = params.layers;
     q.ignored = params.ignored;
-    const TreeSpace tree = TreeSpace(params.viewFromTree, params.viewInTree);
+    const TreeSpace tree = TreeSpace(params.viewFromTree, params.viewInTree, params.firstNode);
     bool isFinished;
     const uvec2 walked = visiblePoints(q, tree, true, isFinished);
     const uvec2 tested = visibleByTests(q, tree);

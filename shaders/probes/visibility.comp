@@ -59,7 +59,7 @@ uvec2 pointsHiddenBy(Walk w, uint pair, uint triangle, uvec2 lit)
                           sheetVertex(pair, triangle, 2u), w.ownDistance, lit, turns);
 }
 
-// Sets which points the sheet may hide according to the tests of its box.
+// Sets whether the sheet may hide points according to the test of its box.
 void testBox(Walk w, uint pair, inout VisibilityProbeOutput result)
 {
     vec3 low = sheetVertex(pair, 0u, 0u), high = low;
@@ -69,9 +69,8 @@ void testBox(Walk w, uint pair, inout VisibilityProbeOutput result)
         high = max(high, vertex);
     }
     const vec3 slack = vec3(BOX_SLACK * (1.0 + norm1(inputs[pair].localPosition)));
-    result.inBox = boxPoints(pointCount, w.facet.shape, w.facet.front, w.local, low - slack,
-                             high + slack);
-    const FacetCone cone = facetCone(w.facet, inputs[pair].localFromView);
+    const FacetCone cone = facetCone(w.facet, facetVectors(w.facet, inputs[pair].localFromView),
+                                     ALL_POINTS);
     result.touchesCone = coneTouches(cone, low - slack, high + slack) ? 1u : 0u;
 }
 

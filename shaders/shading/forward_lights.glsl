@@ -36,6 +36,8 @@ layout(scalar, set = FORWARD_SET, binding = FORWARD_IDS) readonly buffer Forward
 };
 layout(set = FORWARD_SET, binding = FORWARD_DFG) uniform textureBuffer dfgTexels;
 
+#define LIGHT_FAMILY_ALL
+#define COUNTS_DIFFER true
 #ifdef CANDELABRA_SHADOWS
 #define SHADOWS
 #define FINDS_SHARES
@@ -70,8 +72,6 @@ uint lightAt(uint k)
     return foundLights[k];
 }
 
-#define LIGHT_FAMILY_ALL
-#define COUNTS_DIFFER true
 #include "shading/light_walk.glsl"
 
 // Iterates over the lights of one type that reach a position. A shader may use one cursor at a time.

@@ -77,7 +77,8 @@ uint lightVisibility(uint light, ShadingPoint p, float depthError, bool asks, ou
     const uint flags = facetShape(light).shape.flags;
     q.ignored = (flags >> LIGHT_UNSHADOWED_BY_SHIFT & ((1u << OCCLUDER_LAYER_COUNT) - 1u))
                 << OCCLUDER_LAYERS_SHIFT;
-    const TreeSpace tree = TreeSpace(shadowView.viewFromTree, shadowView.viewInTree);
+    const TreeSpace tree =
+        TreeSpace(shadowView.viewFromTree, shadowView.viewInTree, shadowView.firstNode);
     const uvec2 lit = visiblePoints(q, tree, asks && (flags & LIGHT_UNSHADOWED) == 0u, isFinished);
     if (!asks)
         return SHARES_UNASKED;

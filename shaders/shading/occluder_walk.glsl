@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds which points of a light's facet (lib/visibility) a receiver sees: it walks through the tree
 // over the instances of occluders, and through the trees of the meshes that the light's cone touches.
-// The includer provides instanceNodes[], occluderInstances[], occluderNodes[] and occluderTriangles[]
-// (shared/occluder_data.h), and defines facetOf(). A kernel defines QUEUE_LANES, the number of lanes of
+// The includer defines occluderInstance(), occluderNode() and occluderTriangle(), which read an element
+// of an array (shared/occluder_data.h), and facetOf(). A kernel defines QUEUE_LANES, the number of lanes of
 // a group, if lanes may keep queues in shared memory.
 #ifndef CND_SHADING_OCCLUDER_WALK
 #define CND_SHADING_OCCLUDER_WALK
@@ -54,12 +54,14 @@ Facet facetOf(OccluderQuery q);
 struct TreeSpace {
     mat3 viewFromTree;
     vec3 viewInTree; // position of the origin of view space
+    uint firstNode;
 };
 
 // A receiver and a light's cone in the space of a tree.
 struct WalkSpace {
     LightCoordinates coordinates;
-    FacetCone cone;
+    FacetCone whole;   // cone of all points
+    FacetCone cone;    // in meshes: cone of the points that the mesh may hide
     vec3 position;     // of the receiver
     float slack;       // by which boxes are widened
     float ownDistance; // ownSurfaceDistance(), in meshes only
@@ -76,19 +78,8 @@ struct OccluderWalk {
     uint leaf; // instances that were found and have not been entered: as OccluderNode::leaf
     uint shape; // of the facet
     FrontSurface front;
-    bool wide; // isWide()
     WalkSpace space;
 };
-
-// Facets seen under at least this angle (rad) are wide: boxes are also tested against the points that
-// are still lit. It would gain little for smaller ones.
-const float WIDE_FACET = 0.15;
-
-bool isWide(Facet f)
-{
-    const float size2 = max(dot(f.halfU, f.halfU), dot(f.halfV, f.halfV));
-    return 4.0 * size2 >= WIDE_FACET * WIDE_FACET * dot(f.centre, f.centre);
-}
 
 uint leafCount(uint leaf)
 {
@@ -119,24 +110,38 @@ OccluderWalk walkFromRoot()
     return w;
 }
 
-// Sets what depends on the space of the tree that the walk has come to.
+// Returns the points that are still lit and that triangles in the box of a node may hide.
+uvec2 litPointsIn(OccluderWalk w, OccluderNode node)
+{
+    return w.lit & boxPoints(pointCount, w.shape, w.front, w.space.coordinates,
+                             (node.low - w.space.position) - w.space.slack,
+                             (node.high - w.space.position) + w.space.slack);
+}
+
+// Sets what depends on the space of the tree that the walk has come to. In a mesh, the cone holds only
+// the points that the mesh may hide; if it hides none, the walk is at its end.
 void enterSpace(inout OccluderWalk w, OccluderQuery q, mat3 viewFromLocal, mat3 localFromView,
                 vec3 position)
 {
     const Facet f = facetOf(q);
-    const LightCoordinates view = lightCoordinates(f);
+    const FacetVectors vectors = facetVectors(f, localFromView);
     w.lit &= f.members;
     w.shape = f.shape;
     w.front = f.front;
-    w.wide = isWide(f);
-    w.space.coordinates = inSpaceOf(view, viewFromLocal);
-    w.space.cone = facetCone(f, localFromView);
+    w.space.coordinates = inSpaceOf(lightCoordinates(f), viewFromLocal);
     w.space.position = position;
-    w.space.slack = BOX_SLACK * (1.0 + norm1(position));
-    if (!w.inMesh) {
-        const vec3 low = abs(instanceNodes[0].low - position);
-        w.space.slack += roundingOf(f, view) * norm1(max(low, abs(instanceNodes[0].high - position)));
-    }
+    const OccluderNode root = occluderNode(w.firstNode);
+    w.end = root.skip;
+    const vec3 farthest = max(abs(root.low - position), abs(root.high - position));
+    w.space.slack = BOX_SLACK * (1.0 + norm1(position)) +
+                    roundingOf(vectors, w.space.coordinates) * norm1(farthest);
+    const uvec2 points = litPointsIn(w, root);
+    if (isEmpty(points))
+        w.node = w.end;
+    w.space.whole = facetCone(f, vectors, ALL_POINTS);
+    w.space.cone = facetCone(f, vectors,
+                             w.inMesh && !isEmpty(points) ? pointBounds(pointCount, f.shape, points)
+                                                          : ALL_POINTS);
 }
 
 // Enters the first instance of the leaf or, if the leaf is empty, returns to the tree over instances.
@@ -149,86 +154,76 @@ void changeTree(inout OccluderWalk w, OccluderQuery q, TreeSpace tree)
     mat3 viewFromLocal = tree.viewFromTree, localFromView = transpose(tree.viewFromTree);
     vec3 position = tree.viewInTree + localFromView * q.position;
     w.node = w.nextOfInstances;
-    w.end = instanceNodes[0].skip;
+    w.firstNode = tree.firstNode;
     w.space.ownDistance = 0.0;
+    bool counts = true;
     if (w.inMesh) {
         w.instance = leafFirst(w.leaf);
         w.leaf = withoutFirst(w.leaf);
-        w.firstNode = occluderInstances[w.instance].firstNode;
-        w.firstTriangle = occluderInstances[w.instance].firstTriangle;
-        const uint flags = occluderInstances[w.instance].flags;
-        const bool counts = (flags & q.layers) != 0u && (flags & q.ignored) == 0u;
+        const OccluderInstance instance = occluderInstance(w.instance);
+        w.firstNode = instance.firstNode;
+        w.firstTriangle = instance.firstTriangle;
+        counts = (instance.flags & q.layers) != 0u && (instance.flags & q.ignored) == 0u;
         w.node = 0u;
-        w.end = counts ? occluderNodes[w.firstNode].skip : 0u;
-        viewFromLocal = occluderInstances[w.instance].viewFromLocal;
-        localFromView = occluderInstances[w.instance].localFromView;
-        position = localFromView * q.position + occluderInstances[w.instance].viewInLocal;
-        w.space.ownDistance = ownSurfaceDistance(q.depthError, q.position,
-                                                 occluderInstances[w.instance].surfaceError,
+        viewFromLocal = instance.viewFromLocal;
+        localFromView = instance.localFromView;
+        position = localFromView * q.position + instance.viewInLocal;
+        w.space.ownDistance = ownSurfaceDistance(q.depthError, q.position, instance.surfaceError,
                                                  viewFromLocal, position);
     }
     enterSpace(w, q, viewFromLocal, localFromView, position);
+    if (!counts)
+        w.node = w.end;
 }
 
-// Returns whether the cone of the light touches a box in the space of the walk.
-bool boxIsInCone(OccluderWalk w, vec3 low, vec3 high)
+// Returns whether a cone touches a box in the space of the walk.
+bool boxIsInCone(OccluderWalk w, FacetCone cone, vec3 low, vec3 high)
 {
-    return coneTouches(w.space.cone, (low - w.space.position) - w.space.slack,
+    return coneTouches(cone, (low - w.space.position) - w.space.slack,
                        (high - w.space.position) + w.space.slack);
 }
 
-// Returns whether triangles in the box of a node may hide points that are still lit.
-bool mayHide(OccluderWalk w, vec3 low, vec3 high)
-{
-    bool touches = boxIsInCone(w, low, high);
-    if (w.wide && touches)
-        touches = !isEmpty(w.lit & boxPoints(pointCount, w.shape, w.front, w.space.coordinates,
-                                             (low - w.space.position) - w.space.slack,
-                                             (high - w.space.position) + w.space.slack));
-    return touches;
-}
-
-// A triangle hides nothing if its own box is beside the cone. So the walk leaves out no triangle that
-// counts, whatever rounding does.
+// A triangle hides nothing if its own box is beside the cone of all points. Only thus does rounding
+// not decide what the walk leaves out.
 uvec2 pointsHiddenBy(OccluderWalk w, uint triangle, inout uint turns)
 {
-    const OccluderTriangle t = occluderTriangles[w.firstTriangle + triangle];
-    if (!boxIsInCone(w, min(t.corners[0], min(t.corners[1], t.corners[2])),
+    const OccluderTriangle t = occluderTriangle(w.firstTriangle + triangle);
+    if (!boxIsInCone(w, w.space.whole, min(t.corners[0], min(t.corners[1], t.corners[2])),
                      max(t.corners[0], max(t.corners[1], t.corners[2]))))
         return uvec2(0u);
     return trianglePoints(pointCount, w.shape, w.front, w.space.coordinates,
-                          occluderInstances[w.instance].localFromView,
+                          occluderInstance(w.instance).localFromView,
                           t.corners[0] - w.space.position, t.corners[1] - w.space.position,
                           t.corners[2] - w.space.position, w.space.ownDistance, w.lit, turns);
 }
 
-// Walks on until the tree ends, the queue is full, or a leaf with instances is found. Returns how many
-// leaves are in the queue.
+// Walks on until the tree ends, the queue is full, or a leaf with instances is found that may hide
+// points. Returns how many leaves are in the queue.
 uint findLeaves(inout OccluderWalk w, inout uint turns)
 {
     uint queued = 0u;
-    bool found = false;
-    do {
-        ++turns;
-        if (w.node < w.end && queued < LEAF_QUEUE && !found) {
-            OccluderNode node;
-            if (w.inMesh)
-                node = occluderNodes[w.firstNode + w.node];
-            else
-                node = instanceNodes[w.node];
-            const bool touches = mayHide(w, node.low, node.high);
-            const bool isLeaf = touches && node.leaf != 0u;
-            if (isLeaf && w.inMesh) {
-                QUEUED_LEAF(queued) = node.leaf;
-                ++queued;
+    bool found = false, walks;
+    OccluderNode node;
+    do { // until all lanes have found something: this loop may not differ between lanes (visiblePoints)
+        do {
+            ++turns;
+            if (w.node < w.end && queued < LEAF_QUEUE && !found) {
+                node = occluderNode(w.firstNode + w.node);
+                const bool touches = boxIsInCone(w, w.space.cone, node.low, node.high);
+                const bool isLeaf = touches && node.leaf != 0u;
+                if (isLeaf && w.inMesh) {
+                    QUEUED_LEAF(queued) = node.leaf;
+                    ++queued;
+                }
+                found = isLeaf && !w.inMesh;
+                w.node = touches && !isLeaf ? w.node + 1u : node.skip;
             }
-            if (isLeaf && !w.inMesh) {
-                w.leaf = node.leaf;
-                found = true;
-            }
-            w.node = touches && !isLeaf ? w.node + 1u : node.skip;
-        }
-    } while (w.node < w.end && queued < LEAF_QUEUE && !found && turns < ROUND_TURNS);
+        } while (w.node < w.end && queued < LEAF_QUEUE && !found && turns < ROUND_TURNS);
+        found = found && !isEmpty(litPointsIn(w, node));
+        walks = w.node < w.end && queued < LEAF_QUEUE && !found && turns < ROUND_TURNS;
+    } while (subgroupAny(walks));
+    if (found)
+        w.leaf = node.leaf;
     return queued;
 }
 

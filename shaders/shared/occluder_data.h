@@ -70,22 +70,26 @@ struct ShadowView {
     mat3 viewFromTree; // rotation from the space of the tree over instances, that of the world
     vec3 viewInTree;   // position of the origin of view space there
     uint layers;       // of the frame; 0: the frame has no shadows
+    uint firstNode;    // of this tree
     float depthStep;   // of a depth format of integers; 0: depth is a float
     uint points;       // as SPEC_VISIBILITY_POINTS
     uint walkTurns;    // as SPEC_WALK_TURNS
 };
-GPU_SIZE(ShadowView, 64)
+GPU_SIZE(ShadowView, 68)
 
 // Bindings of the kernels that walk through occluders, and of the forward set.
-const uint SHADOW_INSTANCE_NODES = 24u;
 const uint SHADOW_INSTANCES = 25u;
-const uint SHADOW_NODES = 26u;
+const uint SHADOW_NODES = 26u; // of all meshes, and of the tree over instances
 const uint SHADOW_TRIANGLES = 27u;
 const uint SHADOW_POINTS = 28u; // texel buffer: engine/tables/point_table.h
 const uint SHADOW_VIEW = 29u;
 // Bindings of the kernels that read or write visible shares.
 const uint SHADOW_SLOTS = 30u;
 const uint SHADOW_PAGE_SLOTS = 31u; // per page of the entry buffer: the slot of its first light
+// The same buffers as texels (shading/software_drivers.glsl); not in the forward set.
+const uint SHADOW_INSTANCE_TEXELS = 32u;
+const uint SHADOW_NODE_TEXELS = 33u;
+const uint SHADOW_TRIANGLE_TEXELS = 34u;
 
 // Specialisation constant of kernels that walk through occluders: points per light, 64 or 32.
 const uint SPEC_VISIBILITY_POINTS = 9u;

@@ -33,12 +33,11 @@ GPU_SIZE(VisibilityProbeInput, 484)
 struct VisibilityProbeOutput {
     uvec2 members;
     uvec2 hidden;     // by the sheet
-    uvec2 inBox;      // boxPoints() of the sheet
     uint touchesCone; // 1: coneTouches()
     vec2 shares;      // visible shares
     vec3 largest;     // sums of the sizes of all numbers of the facet and its light coordinates
 };
-GPU_SIZE(VisibilityProbeOutput, 48)
+GPU_SIZE(VisibilityProbeOutput, 40)
 
 GPU_END
 

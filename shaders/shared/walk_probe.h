@@ -9,7 +9,6 @@
 
 GPU_BEGIN
 
-const uint WALK_PROBE_INSTANCE_NODES = 2u;
 const uint WALK_PROBE_INSTANCES = 3u;
 const uint WALK_PROBE_NODES = 4u;
 const uint WALK_PROBE_TRIANGLES = 5u;
@@ -20,8 +19,9 @@ struct WalkProbeParams {
     vec3 viewInTree;
     uint count;
     uint layers, ignored; // OccluderQuery
+    uint firstNode;       // ShadowView
 };
-GPU_SIZE(WalkProbeParams, 60)
+GPU_SIZE(WalkProbeParams, 64)
 
 // One receiver and one light, in view space.
 struct WalkProbeInput {

@@ -153,7 +153,6 @@ VisibilityWalk::evaluate(const std::vector<gpu::WalkProbeInput>& inputs, uint32_
     const gpu::Bindings bindings = kernel.createBindings(1);
     bindings.write(0, {gpu::Binding::of(gpu::PROBE_INPUT, in),
                        gpu::Binding::of(gpu::PROBE_OUTPUT, out),
-                       gpu::Binding::of(gpu::WALK_PROBE_INSTANCE_NODES, instances.nodeBuffer()),
                        gpu::Binding::of(gpu::WALK_PROBE_INSTANCES, host_->prepared.buffer()),
                        gpu::Binding::of(gpu::WALK_PROBE_NODES, host_->set.meshes().nodes()),
                        gpu::Binding::of(gpu::WALK_PROBE_TRIANGLES, host_->set.meshes().triangles()),
@@ -164,7 +163,8 @@ VisibilityWalk::evaluate(const std::vector<gpu::WalkProbeInput>& inputs, uint32_
                                       .viewInTree = glm::vec3(camera - instances.origin()),
                                       .count = count,
                                       .layers = 1,
-                                      .ignored = ignored_ << gpu::OCCLUDER_LAYERS_SHIFT};
+                                      .ignored = ignored_ << gpu::OCCLUDER_LAYERS_SHIFT,
+                                      .firstNode = host_->set.meshes().firstInstanceNode()};
     gpu::Timer timer(device(), "walk", 1, false);
     context().submitAndWait([&](VkCommandBuffer cmd) {
         timer.begin(cmd, 0);

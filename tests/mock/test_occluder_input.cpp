@@ -254,7 +254,7 @@ TEST_F(OccluderInput, TheDeviceLimitsTheNumbers)
         mesh.vertexCount = 3 * mesh.triangleCount;
         CndOccluderMeshId id = 0;
         refused(lighting_.addOccluderMeshes({&mesh, 1}, {&id, 1}),
-                "cndAddOccluderMeshes: the meshes need a buffer of 1048608 bytes, more than the "
+                "cndAddOccluderMeshes: the occluders need a buffer of 1048608 bytes, more than the "
                 "device's maxStorageBufferRange, 1048576",
                 CND_ERROR_UNSUPPORTED);
     }

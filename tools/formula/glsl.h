@@ -59,6 +59,10 @@ inline uint findLSB(uint x)
 {
     return uint(std::countr_zero(x));
 }
+inline uint findMSB(uint x)
+{
+    return x ? 31u - uint(std::countl_zero(x)) : ~0u;
+}
 
 // The functions that work by component.
 #define BY_COMPONENT(T)                                                                            \

@@ -105,27 +105,6 @@ uint64_t hiddenPoints(const LightFacet& facet, const OccludingMesh& mesh, const 
     return facet.members & ~Visibility::bitsOf(lit);
 }
 
-BoxResult testBox(const LightFacet& facet, const OccludingMesh& mesh, const Receiver& receiver)
-{
-    Visibility shaders(facet.count);
-    const auto f = shaders.facetOf(facet);
-    const mat3 localFromView = glm::inverse(mesh.worldFromLocal);
-    const vec3 p = localFromView * receiver.position;
-    vec3 low(1e30), high(-1e30);
-    for (const Triangle& t : mesh.triangles)
-        for (const vec3& vertex : t) {
-            low = glm::min(low, vertex);
-            high = glm::max(high, vertex);
-        }
-    const vec3 slack(Visibility::BOX_SLACK * (1 + std::abs(p.x) + std::abs(p.y) + std::abs(p.z)));
-    low = low - p - slack;
-    high = high - p + slack;
-    const auto local = shaders.inSpaceOf(shaders.lightCoordinates(f), mesh.worldFromLocal);
-    return {shaders.coneTouches(shaders.facetCone(f, localFromView), low, high),
-            facet.members & Visibility::bitsOf(shaders.boxPoints(facet.count, f.shape, f.front,
-                                                                 local, low, high))};
-}
-
 glm::dvec2 visibleShares(const LightFacet& facet, uint64_t lit, const Receiver& receiver)
 {
     Visibility shaders(facet.count);

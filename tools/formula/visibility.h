@@ -49,14 +49,6 @@ struct OccludingMesh {
 uint64_t hiddenPoints(const LightFacet& facet, const OccludingMesh& mesh, const Receiver& receiver,
                       double ownDistance = 0);
 
-// The results of the tests of boxes against the cone and against the points, of the box around the
-// triangles.
-struct BoxResult {
-    bool touched = false;
-    uint64_t points = 0;
-};
-BoxResult testBox(const LightFacet& facet, const OccludingMesh& mesh, const Receiver& receiver);
-
 // Returns the visible shares of the diffuse and of the specular response. `lit`: visible points.
 glm::dvec2 visibleShares(const LightFacet& facet, uint64_t lit, const Receiver& receiver);
 

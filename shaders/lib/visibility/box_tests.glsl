@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests whether the triangles in a box may hide points of a facet. Boxes are relative to the receiver.
-// The caller has moved each side outwards by BOX_SLACK times (1 + norm1(receiver's position)). Both
-// tests keep a box, bit for bit, if they keep a box inside it. Of boxes in another space than the
-// triangle's, they keep those with a triangle that hides points (trianglePoints) if the caller has also
-// moved each side by roundingOf() times the distance of the farthest vertex.
+// The caller has moved each side outwards by BOX_SLACK times (1 + norm1(receiver's position)). The test
+// keeps a box, bit for bit, if it keeps a box inside it. Of boxes in another space than the triangle's,
+// it keeps those with a triangle that hides points (trianglePoints) if the caller has also moved each
+// side by roundingOf() times the distance of the farthest vertex.
 #ifndef CND_LIB_VISIBILITY_BOX_TESTS
 #define CND_LIB_VISIBILITY_BOX_TESTS
 
@@ -29,27 +29,64 @@ vec3 finiteInverse(vec3 x)
     return vec3(x.x < 0.0 ? -1.0 : 1.0, x.y < 0.0 ? -1.0 : 1.0, x.z < 0.0 ? -1.0 : 1.0) / size;
 }
 
+// The vectors of a facet in the space of boxes.
+struct FacetVectors {
+    vec3 centre;
+    vec3 halfU;
+    vec3 halfV;
+};
+
 // localFromView: linear part of the transform to the space of the boxes.
-FacetCone facetCone(Facet f, mat3 localFromView)
+FacetVectors facetVectors(Facet f, mat3 localFromView)
 {
-    const vec3 c = localFromView * f.centre, u = localFromView * f.halfU;
-    const vec3 v = localFromView * f.halfV;
-    const vec3 extent =
-        f.shape == FACET_DISC
-            ? vec3(length(vec2(u.x, v.x)), length(vec2(u.y, v.y)), length(vec2(u.z, v.z)))
-            : abs(u) + abs(v);
+    return FacetVectors(localFromView * f.centre, localFromView * f.halfU, localFromView * f.halfV);
+}
+
+// How far beside the bounds of points a triangle may lie that hides one of them. It is more than a step
+// of POINT_PREFIXES.
+const float POINT_BOUNDS_MARGIN = 0.07;
+
+// Bounds of points in units of the half axes: low u, low v, high u, high v.
+const vec4 ALL_POINTS = vec4(-1.0, -1.0, 1.0, 1.0);
+
+// Returns the bounds of a set of points, POINT_BOUNDS_MARGIN away from them. A set of more than
+// two points has only bounds of u: the points are sorted by it. `points` is not empty.
+vec4 pointBounds(uint count, uint shape, uvec2 points)
+{
+    const uint first = points.x != 0u ? uint(findLSB(points.x)) : 32u + uint(findLSB(points.y));
+    const uint last = points.y != 0u ? 32u + uint(findMSB(points.y)) : uint(findMSB(points.x));
+    const vec2 a = facetPoint(count, shape, first), b = facetPoint(count, shape, last);
+    const bool many = bitCount(points.x) + bitCount(points.y) > 2;
+    const vec2 low = vec2(a.x, many ? -1.0 : min(a.y, b.y));
+    const vec2 high = vec2(b.x, many ? 1.0 : max(a.y, b.y));
+    return vec4(max(low - POINT_BOUNDS_MARGIN, vec2(-1.0)), min(high + POINT_BOUNDS_MARGIN, vec2(1.0)));
+}
+
+// Returns the cone of the part of a facet that lies between the bounds (pointBounds).
+FacetCone facetCone(Facet f, FacetVectors v, vec4 bounds)
+{
+    const vec2 middle = 0.5 * (bounds.xy + bounds.zw), extent = 0.5 * (bounds.zw - bounds.xy);
+    const vec3 c = v.centre + middle.x * v.halfU + middle.y * v.halfV;
+    const vec3 e = extent.x * abs(v.halfU) + extent.y * abs(v.halfV);
+    vec3 low = c - e, high = c + e;
+    if (f.shape == FACET_DISC) {
+        const vec3 disc = vec3(length(vec2(v.halfU.x, v.halfV.x)), length(vec2(v.halfU.y, v.halfV.y)),
+                               length(vec2(v.halfU.z, v.halfV.z)));
+        low = max(low, v.centre - disc);
+        high = min(high, v.centre + disc);
+    }
     const bool atInfinity = f.front.inverseDistance == 0.0;
     const float inverseUnit = atInfinity ? 1.0 : f.front.inverseDistance;
-    return FacetCone(inverseUnit * finiteInverse(c - extent), inverseUnit * finiteInverse(c + extent),
+    return FacetCone(inverseUnit * finiteInverse(low), inverseUnit * finiteInverse(high),
                      atInfinity ? UNBOUNDED : 1.0);
 }
 
 // Returns how far beside a cone the rounding of light coordinates may move a point, as a share of the
-// point's distance. It is much for flat lights that are seen from the edge.
-float roundingOf(Facet f, LightCoordinates g)
+// point's distance. It is much for flat lights that are seen from the edge. v, g: in one space.
+float roundingOf(FacetVectors v, LightCoordinates g)
 {
-    const float side = length(f.halfU) + length(f.halfV);
-    const float depth = length(g.z) * length(f.centre);
+    const float side = length(v.halfU) + length(v.halfV);
+    const float depth = length(g.z) * length(v.centre);
     return COORDINATE_SLACK * ((length(g.u) + length(g.v) + length(g.z)) * side + depth);
 }
 

@@ -133,8 +133,10 @@ uvec2 trianglePoints(uint count, uint shape, FrontSurface front, LightCoordinate
     const uvec2 tested = lit & pointsAround(count, shape, front, min(a, min(b, c)),
                                              max(a, max(b, c)), POINT_SLACK);
     turns += uint(bitCount(tested.x) + bitCount(tested.y));
-    return uvec2(hiddenInWord(k, front, count, shape, tested.x, 0u),
-                 hiddenInWord(k, front, count, shape, tested.y, 32u));
+    uvec2 hidden = uvec2(hiddenInWord(k, front, count, shape, tested.x, 0u), 0u);
+    if (count > 32u)
+        hidden.y = hiddenInWord(k, front, count, shape, tested.y, 32u);
+    return hidden;
 }
 
 #endif
