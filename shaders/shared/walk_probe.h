@@ -20,8 +20,10 @@ struct WalkProbeParams {
     uint count;
     uint layers, ignored; // OccluderQuery
     uint firstNode;       // ShadowView
+    uint walks;           // 0: it only tests triangles
+    uint firstTested, endTested; // of this tree: the triangles of these nodes are tested
 };
-GPU_SIZE(WalkProbeParams, 64)
+GPU_SIZE(WalkProbeParams, 76)
 
 // One receiver and one light, in view space.
 struct WalkProbeInput {
@@ -30,15 +32,17 @@ struct WalkProbeInput {
     vec3 toLight; // m; distant types: unit direction
     float boundingRadius;
     LightShape shape;
+    float depthError; // OccluderQuery, m
 };
-GPU_SIZE(WalkProbeInput, 64)
+GPU_SIZE(WalkProbeInput, 68)
 
 struct WalkProbeOutput {
     uvec2 members;
     uvec2 walked; // visible points by the walk
-    uvec2 tested; // visible points if every triangle is tested
+    uvec2 tested; // visible points by tests of the triangles that the parameters name
+    uint finished; // 0: the device ended the walk
 };
-GPU_SIZE(WalkProbeOutput, 24)
+GPU_SIZE(WalkProbeOutput, 28)
 
 GPU_END
 
