@@ -64,10 +64,15 @@ public:
 struct Job {
     std::string kernel, family;
     bool shadows = false; // the kernel differs if the module has shadows
+    bool points = false;  // the kernel calls candelabraVisiblePoints
     // Kernels that replace others have their names (engine/surfaces/host_kernels.cpp).
     std::string name() const
     {
-        return kernel + (shadows ? "_shadows" : "") + (family.empty() ? "" : ":" + family);
+        return kernel +
+               (points    ? "_points"
+                : shadows ? "_shadows"
+                          : "") +
+               (family.empty() ? "" : ":" + family);
     }
 };
 
@@ -97,15 +102,19 @@ std::vector<Job> jobsOf(const CndCompileDesc& desc)
     const uint32_t types = desc.lightTypes ? desc.lightTypes : ~0u;
     const uint32_t methods = desc.specularMethods ? desc.specularMethods : 1u << CND_SPECULAR_CONIC;
     const bool reads = desc.functions & CND_HOST_READ_SURFACE_BIT;
+    const bool points = desc.functions & CND_HOST_VISIBLE_POINTS_BIT;
+    const bool shadows = desc.shadows != VK_FALSE;
     std::vector<Job> jobs;
     for (const std::string& family : familiesOf(types, methods)) {
-        for (const char* kernel : {"shade_tiles", "shade_unlisted", "shade_brute"})
-            jobs.push_back({kernel, family, desc.shadows != VK_FALSE});
+        if (desc.functions & ~uint32_t(CND_HOST_VISIBLE_POINTS_BIT))
+            for (const char* kernel : {"shade_tiles", "shade_brute"})
+                jobs.push_back({kernel, family, shadows});
+        jobs.push_back({"shade_unlisted", family, shadows, points});
         if (reads)
             jobs.push_back({"count_pairs", family});
     }
-    if (reads && desc.shadows)
-        jobs.push_back({"pair_visibility", ""});
+    if (points || (reads && shadows))
+        jobs.push_back({"pair_visibility", "", false, points});
     if (reads)
         for (const char* kernel : {"tile_clusters", "split_tiles", "cpu/tile_clusters",
                                    "cpu/split_tiles", "surface_overlay", "shade_environment"})
@@ -119,7 +128,8 @@ std::vector<Job> jobsOf(const CndCompileDesc& desc)
     constexpr std::string_view error = "ERROR: ";
     const std::string kernel = " (in " + job.name() + ")";
     if (log.find("No function definition (body) found") != std::string::npos)
-        for (const char* function : {"candelabraVisibility", "candelabraReadSurface"})
+        for (const char* function :
+             {"candelabraVisibility", "candelabraReadSurface", "candelabraVisiblePoints"})
             if (log.find(function) != std::string::npos)
                 gpu::failArgument(std::string("cndCompileKernels: ") +
                                   (desc.sourceName ? desc.sourceName : "source") +
@@ -164,14 +174,18 @@ std::vector<uint32_t> compile(const Job& job, const CndCompileDesc& desc)
         preamble += "#define CANDELABRA_VISIBILITY\n";
     if (desc.functions & CND_HOST_READ_SURFACE_BIT)
         preamble += "#define CANDELABRA_READ_SURFACE\n";
+    if (job.points)
+        preamble += "#define CANDELABRA_VISIBLE_POINTS\n";
 
     const std::string kernelName = "kernels/" + job.kernel + ".comp";
     const ShaderSource& kernel = *findSource(kernelName);
     const std::string_view source = desc.source;
-    // Every kernel includes the declaration of CndShadowQuery: those that evaluate no lights get
-    // the same source, and a source that lacks the promised function is then reported as such
-    // instead of "CndShadowQuery undeclared".
-    constexpr std::string_view query = "\n#include \"lib/shadow_query.glsl\"\n";
+    // Every kernel includes the declarations of the queries: those that evaluate no lights get the
+    // same source, and a source that lacks the promised function is then reported as such instead
+    // of "CndShadowQuery undeclared".
+    std::string query = "\n#include \"lib/shadow_query.glsl\"\n";
+    if (desc.functions & CND_HOST_VISIBLE_POINTS_BIT)
+        query += "#include \"lib/visibility_query.glsl\"\n";
     const char* const texts[] = {kernel.text.data(), query.data(), source.data()};
     const int lengths[] = {int(kernel.text.size()), int(query.size()), int(source.size())};
     const char* const names[] = {kernelName.c_str(), kernelName.c_str(),
@@ -203,8 +217,11 @@ void check(const CndCompileDesc& desc)
         gpu::failArgument("CndCompileDesc: structSize is " + std::to_string(desc.structSize) +
                           ", this library expects " + std::to_string(sizeof desc));
     if (!desc.functions ||
-        desc.functions & ~uint32_t(CND_HOST_VISIBILITY_BIT | CND_HOST_READ_SURFACE_BIT))
+        desc.functions & ~uint32_t(CND_HOST_VISIBILITY_BIT | CND_HOST_READ_SURFACE_BIT |
+                                   CND_HOST_VISIBLE_POINTS_BIT))
         gpu::failArgument("CndCompileDesc: functions must be a mask of CndHostFunctionBits");
+    if (desc.functions & CND_HOST_VISIBLE_POINTS_BIT && !desc.shadows)
+        gpu::failArgument("CndCompileDesc: CND_HOST_VISIBLE_POINTS_BIT needs shadows");
     if (!desc.source)
         gpu::failArgument("CndCompileDesc: source is null");
     if (desc.lightTypes >> CND_LIGHT_TYPE_COUNT)

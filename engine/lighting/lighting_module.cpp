@@ -111,6 +111,9 @@ Lighting::Lighting(const CndDeviceDesc& device, const CndLightingDesc& desc)
       module_{device_,  desc_,        recordings_, gbuffer_, hostKernels_,
               kernels_, albedoTable_, lights_,     nullptr}
 {
+    if (hostKernels_.findsPoints() && !desc_.shadows.points)
+        gpu::failArgument("CndLightingDesc: hostKernels have CND_HOST_VISIBLE_POINTS_BIT, which "
+                          "needs shadows.points of 32 or 64");
     if (desc_.shadows.points) {
         occluders_.emplace(device_, recordings_, desc_.shadows.triangleCapacity,
                            desc_.shadows.instanceCapacity, [this](uint32_t places) {

@@ -19,7 +19,8 @@ namespace
 struct BuiltIn {
     const char* name;
     const gpu::Spirv* spirv;
-    bool evaluates = false; // evaluates lights, so that a host's shadow term must be in it
+    bool evaluates = false;   // evaluates lights, so that a host's shadow term must be in it
+    bool findsPoints = false; // the host's form of it finds visible points (CndHostFunctionBits)
 };
 
 // The kernels that read surfaces, apart from measure_influence, which hosts cannot replace.
@@ -31,10 +32,12 @@ const BuiltIn builtIn[] = {
         {"shade_tiles_shadows:" #NAME, spirv::shade_tiles_comp_shadows[index], true},              \
         {"shade_unlisted_shadows:" #NAME, spirv::shade_unlisted_comp_shadows[index], true},        \
         {"shade_brute_shadows:" #NAME, spirv::shade_brute_comp_shadows[index], true},              \
+        {"shade_unlisted_points:" #NAME, spirv::shade_unlisted_comp_shadows[index], false, true},  \
         {"count_pairs:" #NAME, spirv::count_pairs_comp[index]},
     CND_LIGHT_FAMILIES(X)
 #undef X
         {"pair_visibility", &spirv::pair_visibility_comp_sphere},
+    {"pair_visibility_points", &spirv::pair_visibility_comp_sphere, false, true},
     {"tile_clusters", &spirv::tile_clusters_comp},
     {"split_tiles", &spirv::split_tiles_comp},
     {"cpu/tile_clusters", &spirv::cpu_tile_clusters_comp},
@@ -47,7 +50,7 @@ const BuiltIn builtIn[] = {
     gpu::failArgument("CndHostKernels: " + sentence);
 }
 
-const gpu::Spirv& findBuiltIn(const CndKernelCode& code)
+const BuiltIn& findBuiltIn(const CndKernelCode& code)
 {
     if (!code.name || !code.words)
         failKernels("the name or the words of a kernel are null");
@@ -55,7 +58,7 @@ const gpu::Spirv& findBuiltIn(const CndKernelCode& code)
         std::ranges::find(builtIn, std::string(code.name), [](const BuiltIn& b) { return b.name; });
     if (found == std::end(builtIn))
         failKernels("there is no kernel " + std::string(code.name) + " to replace");
-    return *found->spirv;
+    return *found;
 }
 
 } // namespace
@@ -66,40 +69,54 @@ HostKernels::HostKernels(const CndHostKernels& given, CndGBufferLayout layout)
     if (given.count && !given.kernels)
         failKernels("kernels is null but count is " + std::to_string(given.count));
     for (const CndKernelCode& code : std::span(given.kernels, given.count)) {
-        const gpu::Spirv& replaced = findBuiltIn(code);
+        const BuiltIn& replaced = findBuiltIn(code);
         std::vector<uint32_t> words(code.words, code.words + code.wordCount);
         gpu::Reflection reflection = gpu::reflect({code.name, words});
         const bool usesSet = std::exchange(reflection.usesHostSet, false);
-        if (reflection != gpu::reflect(replaced))
+        if (reflection != gpu::reflect(*replaced.spirv))
             failKernels(std::string("kernel ") + code.name +
                         " has other bindings or parameters than this version's: compile it again");
         // `spirv` points to the words. They stay where they are when the vector is moved.
-        const gpu::Spirv spirv{replaced.name, words};
-        kernels_.push_back({&replaced, std::move(words), spirv, usesSet});
+        const gpu::Spirv spirv{replaced.spirv->name, words};
+        kernels_.push_back(
+            {replaced.spirv, std::move(words), spirv, usesSet, replaced.findsPoints});
+        hasShadowTerm_ = hasShadowTerm_ || replaced.evaluates;
+        findsPoints_ = findsPoints_ || replaced.findsPoints;
     }
 }
 
-const gpu::Spirv& HostKernels::of(const gpu::Spirv& original) const
+const HostKernels::Code* HostKernels::find(const gpu::Spirv& original) const
 {
-    const auto host = std::ranges::find(kernels_, &original, &Code::builtIn);
-    if (host != kernels_.end())
-        return host->spirv;
-    const auto* const known = std::ranges::find(builtIn, &original, &BuiltIn::spirv);
-    if (known != std::end(builtIn) && (readSurfaces_ || (!kernels_.empty() && known->evaluates)))
+    const BuiltIn* known = nullptr;
+    for (const BuiltIn& b : builtIn)
+        if (b.spirv == &original && (!known || (findsPoints_ && b.findsPoints)))
+            known = &b;
+    if (!known)
+        return nullptr;
+    for (const Code& code : kernels_)
+        if (code.builtIn == &original && code.findsPoints == known->findsPoints)
+            return &code;
+    if (readSurfaces_ || (hasShadowTerm_ && known->evaluates) || known->findsPoints)
         failKernels(std::string("kernel ") + known->name +
                     " is missing: name its light type and method in CndCompileDesc, and "
                     "whether the module has shadows" +
                     (readSurfaces_ ? ", and CND_HOST_READ_SURFACE_BIT" : ""));
-    return original;
+    return nullptr;
+}
+
+const gpu::Spirv& HostKernels::of(const gpu::Spirv& original) const
+{
+    const Code* host = find(original);
+    return host ? host->spirv : original;
 }
 
 const gpu::Spirv& HostKernels::used(const gpu::Spirv& original) const
 {
-    const auto host = std::ranges::find(kernels_, &original, &Code::builtIn);
+    const Code* host = find(original);
     // A kernel that uses the set needs its layout, or creating the pipeline fails.
-    if (host != kernels_.end() && host->usesSet && setLayout_)
+    if (host && host->usesSet && setLayout_)
         needsSet_ = true;
-    return of(original);
+    return host ? host->spirv : original;
 }
 
 void HostKernels::requireSet(const char* frame, VkDescriptorSet set) const

@@ -19,7 +19,8 @@ public:
     // CND_GBUFFER_CUSTOM, of() requires every kernel that reads the G-buffer to be the host's.
     HostKernels(const CndHostKernels& given, CndGBufferLayout layout);
 
-    bool empty() const { return kernels_.empty(); }
+    // Tells whether the host finds the visible points of lights (CND_HOST_VISIBLE_POINTS_BIT).
+    bool findsPoints() const { return findsPoints_; }
     // These two may be called on several threads at the same time. They throw gpu::Failure if the
     // host's kernel is required and was not given.
     //
@@ -37,13 +38,16 @@ private:
         const gpu::Spirv* builtIn;
         std::vector<uint32_t> words;
         gpu::Spirv spirv;
-        bool usesSet;
+        bool usesSet, findsPoints;
     };
+    const Code* find(const gpu::Spirv& builtIn) const; // null: the built-in one is used
 
     std::vector<Code> kernels_;
     VkDescriptorSetLayout setLayout_;
     mutable std::atomic<bool> needsSet_{false}; // a kernel of used() uses the host's set
-    bool readSurfaces_; // CND_GBUFFER_CUSTOM: every kernel that reads it is the host's
+    bool readSurfaces_;          // CND_GBUFFER_CUSTOM: every kernel that reads it is the host's
+    bool hasShadowTerm_ = false; // kernels that evaluate lights are the host's
+    bool findsPoints_ = false;
 };
 
 } // namespace candelabra::surfaces

@@ -85,7 +85,7 @@ void FramePasses::skipShadows(const FrameContent& c)
     for (const Pass pass : ofShadows)
         if (c.shadowsOff)
             skip(pass, "shadowsOff");
-        else if (!c.occludersInLayers)
+        else if (!c.occludersInLayers && (pass == Pass::PrepareOccluders || !c.hostFindsPoints))
             skip(pass, "no occluder of the view's layers");
     if (c.brute)
         for (const Pass pass : {Pass::AskPairs, Pass::CountShadows})

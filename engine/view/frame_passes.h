@@ -55,7 +55,8 @@ struct FrameContent {
     bool forward = false;      // shaders of the host walk the light tree
     bool findsShadows = false; // CndLightingDesc::shadows
     bool occludersInLayers = false, shadowsOff = false;
-    bool polygons = false; // some lights are polygons
+    bool hostFindsPoints = false; // CND_HOST_VISIBLE_POINTS_BIT
+    bool polygons = false;        // some lights are polygons
 };
 
 class FramePasses

@@ -60,6 +60,8 @@ gpu::PrepareLightsParams prepareParams(const LightSet& lights, const CndLighting
 FramePlan planFrame(const Module& module, const CndLightingFrame& frame)
 {
     const LightSet& lights = module.lights;
+    const bool occluders = module.occluders && !frame.shadowsOff &&
+                           (module.occluders->instances().layers() & layersOf(frame.layers));
     return {.frame = frame,
             .params = frameParams(module, frame),
             .tileCount = {tilesAlong(frame.width), tilesAlong(frame.height)},
@@ -71,8 +73,8 @@ FramePlan planFrame(const Module& module, const CndLightingFrame& frame)
                     ? std::min(splitLength * lights.extent().influenceRadius, gpu::UNBOUNDED)
                     : gpu::UNBOUNDED,
             .prepare = prepareParams(lights, frame),
-            .shadows = module.occluders && !frame.shadowsOff &&
-                       (module.occluders->instances().layers() & layersOf(frame.layers))};
+            .occluders = occluders,
+            .shadows = occluders || (module.hostKernels.findsPoints() && !frame.shadowsOff)};
 }
 
 } // namespace candelabra::lighting

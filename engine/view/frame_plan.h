@@ -16,7 +16,8 @@ struct FramePlan {
     TreeShapes trees;
     float splitLength; // gpu::TileClustersParams
     gpu::PrepareLightsParams prepare;
-    bool shadows; // occluders may shadow lights
+    bool occluders; // some may shadow lights
+    bool shadows;   // pairs are asked for: there are occluders, or the host finds visible points
 };
 
 // `frame` comes from checkedFrame and must outlive the plan. Throws gpu::Failure if its projection

@@ -113,8 +113,9 @@ FrameContent View::contentOf(const FramePlan& p, bool listsKept) const
                      .countPairs = frame.countPairs == VK_TRUE,
                      .forward = forward_.wanted(),
                      .findsShadows = module_.occluders != nullptr,
-                     .occludersInLayers = p.shadows || frame.shadowsOff,
+                     .occludersInLayers = p.occluders || frame.shadowsOff,
                      .shadowsOff = frame.shadowsOff == VK_TRUE,
+                     .hostFindsPoints = module_.hostKernels.findsPoints(),
                      .polygons = lights.typeCounts()[CND_LIGHT_POLYGON] > 0};
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         if (p.lights[type])

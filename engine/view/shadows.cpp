@@ -45,11 +45,12 @@ gpu::ShadowView shadowView(const Module& module, const FramePlan& plan)
     const glm::dvec3 eye = glm::transpose(rotation) * -glm::dvec3(view[3]);
     return {.viewFromTree = glm::mat3(rotation),
             .viewInTree = glm::vec3(eye - module.occluders->instances().origin()),
-            .layers = plan.shadows ? layersOf(plan.frame.layers) : 0,
+            .layers = plan.occluders ? layersOf(plan.frame.layers) : 0,
             .firstNode = module.occluders->meshes().firstInstanceNode(),
             .depthStep = depthStep(module.gbuffer.desc()),
             .points = module.desc.shadows.points,
-            .walkTurns = walkTurns(module.device)};
+            .walkTurns = walkTurns(module.device),
+            .asks = plan.shadows};
 }
 
 gpu::Buffer createScratch(const Module& module, const char* what, VkDeviceSize bytes,

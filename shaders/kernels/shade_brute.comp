@@ -27,7 +27,7 @@ layout(scalar, binding = SHADOW_SLOTS) readonly buffer Slots
 // Returns the visible shares of the k-th light of the batch at this lane's pixel.
 uint visibleSharesAt(uint k)
 {
-    if (shadowView.layers == 0u)
+    if (shadowView.asks == 0u)
         return SHARES_LIT;
     const uint tile = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
     return slots[(tile * params.batch.count + k) * SLOT_WORDS + gl_LocalInvocationIndex];

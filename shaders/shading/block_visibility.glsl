@@ -5,8 +5,16 @@
 #ifndef CND_SHADING_BLOCK_VISIBILITY
 #define CND_SHADING_BLOCK_VISIBILITY
 
+#extension GL_KHR_shader_subgroup_vote : require
 #include "shading/classify_lights.glsl"
 #include "shading/light_visibility.glsl"
+
+// The host's function needs no occluders (light_visibility.glsl).
+#ifdef CANDELABRA_VISIBLE_POINTS
+#define HAS_SHADOWS (shadowView.asks != 0u)
+#else
+#define HAS_SHADOWS (shadowView.layers != 0u)
+#endif
 
 #ifdef QUEUE_LANES
 shared uint blockShares[SHADOW_BLOCK * QUEUE_LANES];
@@ -22,13 +30,13 @@ float pointDepthError = 0.0; // of the point that is lit (lightVisibility)
 // Returns the visible shares of the k-th light. Blocks begin at 0.
 uint visibleSharesAt(uint k)
 {
-    return shadowView.layers == 0u ? SHARES_LIT : BLOCK_SHARES(k);
+    return HAS_SHADOWS ? BLOCK_SHARES(k) : SHARES_LIT;
 }
 
 // Finds the visible shares of these lights of a block.
 void findShares(Receiver r, uvec2 found)
 {
-    uint left = shadowView.layers == 0u ? 0u : found.x;
+    uint left = HAS_SHADOWS ? found.x : 0u;
     // All lanes stay in this loop until the last one leaves it (occluder_walk.glsl).
     while (subgroupAny(left != 0u)) {
         const bool asks = left != 0u;

@@ -11,16 +11,15 @@
 #extension GL_KHR_shader_subgroup_vote : require
 #include "lib/visibility/box_tests.glsl"
 #include "lib/visibility/triangle_points.glsl"
+#include "shading/point_count.glsl"
 #include "shared/occluder_data.h"
 
-// pointCount: how many points a facet has, 64 or 32. mostWalkTurns: some devices silently end loops
-// after so many turns, which they count over all loops of an invocation (DECISIONS 12), less those that
-// are left for other loops; 0: no limit. Hosts' shaders have constants of their own.
+// mostWalkTurns: some devices silently end loops after so many turns, which they count over all loops
+// of an invocation (DECISIONS 12), less those that are left for other loops; 0: no limit. Hosts'
+// shaders have no such constant.
 #ifdef LIGHT_FAMILY_ALL
-#define pointCount shadowView.points
 #define mostWalkTurns shadowView.walkTurns
 #else
-layout(constant_id = SPEC_VISIBILITY_POINTS) const uint pointCount = 64u;
 layout(constant_id = SPEC_WALK_TURNS) const uint mostWalkTurns = 0u;
 #endif
 

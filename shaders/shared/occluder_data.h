@@ -69,13 +69,14 @@ GPU_SIZE(OccluderInstance, 112)
 struct ShadowView {
     mat3 viewFromTree; // rotation from the space of the tree over instances, that of the world
     vec3 viewInTree;   // position of the origin of view space there
-    uint layers;       // of the frame; 0: the frame has no shadows
+    uint layers;       // of the frame; 0: there is no occluder in them
     uint firstNode;    // of this tree
     float depthStep;   // of a depth format of integers; 0: depth is a float
     uint points;       // as SPEC_VISIBILITY_POINTS
     uint walkTurns;    // as SPEC_WALK_TURNS
+    uint asks;         // 0: the frame has no shadows, and its slots are not written
 };
-GPU_SIZE(ShadowView, 68)
+GPU_SIZE(ShadowView, 72)
 
 // Bindings of the kernels that walk through occluders, and of the forward set.
 const uint SHADOW_INSTANCES = 25u;

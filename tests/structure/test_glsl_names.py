@@ -12,7 +12,7 @@ import tempfile
 root = pathlib.Path(sys.argv[1]).resolve()
 PREFIXED = re.compile(r"(cnd|Cnd|CND_|CANDELABRA_)[A-Z0-9_]")
 # Names that GLSL and the functions of hosts define.
-GIVEN = {"main", "candelabraVisibility", "candelabraReadSurface"}
+GIVEN = {"main", "candelabraVisibility", "candelabraReadSurface", "candelabraVisiblePoints"}
 TOKEN = re.compile(r"[A-Za-z_]\w*|##|\S")
 failures = []
 
@@ -112,7 +112,7 @@ with tempfile.TemporaryDirectory() as folder:
                                 "shaders/host_shaders.cmake does not see its declaration")
     # Hosts read and write members, whose names must stay.
     for name, struct in {"lib/surface.glsl": "Surface", "lib/shadow_query.glsl": "ShadowQuery",
-                         "shading/forward_lights.glsl": "LightCursor"}.items():
+                         "lib/visibility_query.glsl": "VisibilityQuery", "shading/forward_lights.glsl": "LightCursor"}.items():
         ours, theirs = members_of(root / "shaders" / name, struct), members_of(copies / name, "Cnd" + struct)
         if ours != theirs:
             failures.append(f"{name}: the members {ours} of {struct} are {theirs} for hosts; a name that is "

@@ -76,6 +76,45 @@ TEST(Compiler, MakesTheKernelsThatTheFunctionsBelongIn)
                                      "shade_environment"}));
 }
 
+// A host's ray queries need SPIR-V 1.4. Kernels that call no function of the host stay ours.
+TEST(Compiler, VisiblePointsMayComeFromRayQueries)
+{
+    const std::string rays = R"(
+#extension GL_EXT_ray_query : require
+layout(set = 1, binding = 0) uniform accelerationStructureEXT scene;
+uvec2 candelabraVisiblePoints(CndVisibilityQuery q)
+{
+    const bool endless = q.facet.front.inverseDistance == 0.0;
+    const vec3 from = q.position + 4.0 * q.ownDistance * q.normal;
+    uvec2 seen = uvec2(0u);
+    for (uint i = 0u; i < q.count; ++i) {
+        if ((q.points[i / 32u] >> i % 32u & 1u) == 0u)
+            continue;
+        rayQueryEXT ray;
+        rayQueryInitializeEXT(ray, scene, gl_RayFlagsTerminateOnFirstHitEXT, 0xFF, from, 0.0,
+                              cndLightPoint(q, i), endless ? 1e30 : 1.0);
+        while (rayQueryProceedEXT(ray)) {}
+        if (rayQueryGetIntersectionTypeEXT(ray, true) == gl_RayQueryCommittedIntersectionNoneEXT)
+            seen[i / 32u] |= 1u << i % 32u;
+    }
+    return seen;
+}
+)";
+    CndCompileDesc desc{.functions = CND_HOST_VISIBLE_POINTS_BIT,
+                        .source = rays.c_str(),
+                        .lightTypes = 1u << CND_LIGHT_SPHERE,
+                        .shadows = VK_TRUE,
+                        .apiVersion = VK_API_VERSION_1_2};
+    EXPECT_EQ(kernelsOf(desc),
+              (std::set<std::string>{"shade_unlisted_points:CONIC", "pair_visibility_points"}));
+    const std::string both = rays + shadow;
+    desc.source = both.c_str();
+    desc.functions |= CND_HOST_VISIBILITY_BIT;
+    EXPECT_EQ(kernelsOf(desc),
+              (std::set<std::string>{"shade_tiles_shadows:CONIC", "shade_brute_shadows:CONIC",
+                                     "shade_unlisted_points:CONIC", "pair_visibility_points"}));
+}
+
 TEST(Compiler, ErrorsNameTheLineOfTheSource)
 {
     EXPECT_EQ(compileError({.functions = CND_HOST_VISIBILITY_BIT,
@@ -96,6 +135,14 @@ TEST(Compiler, ErrorsNameTheLineOfTheSource)
                       .sourceName = "shadow.glsl"}),
         "cndCompileKernels: shadow.glsl does not define candelabraReadSurface with the parameters "
         "of CndHostFunctionBits");
+    EXPECT_EQ(compileError({.functions = CND_HOST_VISIBLE_POINTS_BIT,
+                            .source = "uvec2 candelabraVisiblePoints(CndShadowQuery q)\n"
+                                      "{\n"
+                                      "    return uvec2(0u);\n"
+                                      "}\n",
+                            .shadows = VK_TRUE}),
+              "cndCompileKernels: source does not define candelabraVisiblePoints with the "
+              "parameters of CndHostFunctionBits");
     EXPECT_NE(
         compileError({.functions = CND_HOST_VISIBILITY_BIT, .source = "#include \"moon.glsl\"\n"})
             .find("source:1: '#include' : "),
@@ -106,10 +153,12 @@ TEST(Compiler, RefusesWhatIsOutOfRange)
 {
     EXPECT_EQ(compileError({.source = shadow}),
               "CndCompileDesc: functions must be a mask of CndHostFunctionBits");
-    EXPECT_EQ(compileError({.functions = 4, .source = shadow}),
+    EXPECT_EQ(compileError({.functions = 8, .source = shadow}),
               "CndCompileDesc: functions must be a mask of CndHostFunctionBits");
     EXPECT_EQ(compileError({.functions = CND_HOST_VISIBILITY_BIT}),
               "CndCompileDesc: source is null");
+    EXPECT_EQ(compileError({.functions = CND_HOST_VISIBLE_POINTS_BIT, .source = shadow}),
+              "CndCompileDesc: CND_HOST_VISIBLE_POINTS_BIT needs shadows");
     EXPECT_EQ(compileError({.functions = CND_HOST_VISIBILITY_BIT,
                             .source = shadow,
                             .lightTypes = 1u << CND_LIGHT_TYPE_COUNT}),

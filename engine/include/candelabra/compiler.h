@@ -35,6 +35,22 @@ typedef enum CndHostFunctionBits {
     // Compute it with `precise` variables, so that every kernel gets the same bits. The camera's
     // rotation is available as cndGbufferView.viewFromWorld.
     CND_HOST_READ_SURFACE_BIT = 2,
+    // `uvec2 candelabraVisiblePoints(CndVisibilityQuery query)`: which points of a light a surface
+    // sees, found with rays of the host. It takes the place of the library's occluders, which are
+    // then ignored: every light but those with CndLight::unshadowed asks the function, in every
+    // frame without CndLightingFrame::shadowsOff. It needs `shadows`. Everything is in view space,
+    // in metres:
+    // - `light`, `type`, `position` and `normal` are as above.
+    // - `points` are asked for: bit i of x, and bit i - 32 of y for the points from 32 on. The
+    //   result has the bits of those that are seen. Other bits of it are ignored.
+    // - `vec3 cndLightPoint(query, i)` is the way from `position` to point i of the light. It ends
+    // a
+    //   little before the light's surface, so a ray tests all of it. For distant lights it is a
+    //   direction of any length, and the ray has no end.
+    // - `ownDistance`: a surface whose plane is at most so far from `position` hides nothing. It is
+    //   the surface's own, as far as depth and rounding can tell.
+    // - `unshadowedBy` is that of the light.
+    CND_HOST_VISIBLE_POINTS_BIT = 4,
     CND_HOST_FUNCTION_MAX_ENUM = 0x7FFFFFFF
 } CndHostFunctionBits;
 
@@ -52,7 +68,7 @@ typedef struct CndCompileDesc {
     // 1 << CndSpecularMethod, 0 for CND_SPECULAR_CONIC alone.
     uint32_t lightTypes, specularMethods;
     // VK_TRUE: the module will have shadows (CndLightingDesc::shadows), whose kernels differ from
-    // those without.
+    // those without. CND_HOST_VISIBLE_POINTS_BIT needs it.
     VkBool32 shadows;
     // The version of Vulkan that the code is for: VK_API_VERSION_1_1 (0 means this), 1_2 or 1_3.
     // They give SPIR-V 1.3, 1.5 and 1.6. The version may be lower than that of the device. It must

@@ -119,7 +119,8 @@ typedef enum CndShadingBits {
     CND_SHADING_BITS_MAX_ENUM = 0x7FFFFFFF
 } CndShadingBits;
 
-// Soft shadows of the host's occluders (occluders.h).
+// Soft shadows of the host's occluders (occluders.h), or of what rays of the host hit
+// (CND_HOST_VISIBLE_POINTS_BIT, compiler.h).
 typedef struct CndShadowDesc {
     // 0 (no shadows), 32 or 64: how many points of each light a pixel asks for. 64 cost little
     // more. With points the device needs maxPerStageDescriptorStorageBuffers of 12, and depth must

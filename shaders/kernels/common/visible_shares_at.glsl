@@ -17,7 +17,7 @@ uint walkedTile; // the tile of this group
 // lights follow one another tile by tile.
 uint visibleSharesAt(uint k)
 {
-    if (shadowView.layers == 0u)
+    if (shadowView.asks == 0u)
         return SHARES_LIT;
     uint slot = pageSlots[k / PAGE_WORDS] + k % PAGE_WORDS - 1u;
     if (IS_DISTANT)

@@ -17,6 +17,18 @@ struct FrontSurface {
     float roundEnd;        // length of a tube's round end over half the length of the facet; spheres: 1
 };
 
+// Occluders that reach the emitter up to this share of its distance do not count: the drawn surface of
+// the emitter itself, or a ceiling in which a panel lies flush.
+const float FRONT_SLACK = 2.44140625e-4; // 2^-12
+
+// Occluders count up to a share of the way to a point of the facet. Returns 1 over that share.
+float frontFactor(FrontSurface front, vec2 uv)
+{
+    const float beyond = max(0.0, abs(uv.x) - (1.0 - front.roundEnd)) / front.roundEnd;
+    const float g = sqrt(max(0.0, 1.0 - uv.y * uv.y - beyond * beyond));
+    return 1.0 + FRONT_SLACK + front.kappa * g;
+}
+
 // The points of the facet are centre + u halfU + v halfV, with (u, v) from facet_points.glsl. The
 // vectors are scaled so that none of their products overflows: in units of 1 / front.inverseDistance
 // metres, or in any unit if the facet is at infinity.

@@ -6,9 +6,6 @@
 
 #include "lib/visibility/light_coordinates.glsl"
 
-// Occluders that reach the emitter up to this share of its distance do not count: the drawn surface of
-// the emitter itself, or a ceiling in which a panel lies flush.
-const float FRONT_SLACK = 2.44140625e-4; // 2^-12
 // Bound of the rounding of an edge condition, relative to the L1 norms of the edge's ends. Both
 // triangles of an edge count a point this near to it, so that closed surfaces leak no point.
 const float EDGE_SLACK = 2.384185791015625e-7; // 2^-22
@@ -83,9 +80,7 @@ struct TriangleConditions {
 
 bool hidesPoint(TriangleConditions k, FrontSurface front, vec2 uv)
 {
-    const float beyond = max(0.0, abs(uv.x) - (1.0 - front.roundEnd)) / front.roundEnd;
-    const float g = sqrt(max(0.0, 1.0 - uv.y * uv.y - beyond * beyond));
-    const float nearest = k.behind * (1.0 + FRONT_SLACK + front.kappa * g);
+    const float nearest = k.behind * frontFactor(front, uv);
     return min(min(atPoint(k.edge0, uv), atPoint(k.edge1, uv)), atPoint(k.edge2, uv)) >= 0.0 &&
            (front.inverseDistance == 0.0 || atPoint(k.front, uv) >= nearest);
 }
