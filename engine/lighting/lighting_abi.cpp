@@ -10,9 +10,6 @@
 
 using namespace candelabra;
 
-struct CndLighting_T {
-    lighting::Lighting impl;
-};
 struct CndLightingView_T {
     CndLightingView_T(lighting::Lighting& of, const CndLightingViewDesc& desc)
         : lighting(of), impl(of.module(), desc)

@@ -46,3 +46,8 @@ private:
 };
 
 } // namespace candelabra::lighting
+
+// What the handles of the C ABI point to.
+struct CndLighting_T {
+    candelabra::lighting::Lighting impl;
+};

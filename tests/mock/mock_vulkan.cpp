@@ -377,7 +377,7 @@ MockVulkan::MockVulkan()
              .maxTexelBufferElements = 1u << 27,
              .maxStorageBufferRange = 1u << 27,
              .maxPerStageDescriptorStorageBuffers = 64,
-             .maxComputeWorkGroupCount = {65535},
+             .maxComputeWorkGroupCount = {65535, 65535, 65535},
              .maxComputeWorkGroupInvocations = 1024,
              .maxComputeWorkGroupSize = {1024, 1024, 64},
              .maxDrawIndirectCount = 1u << 20,

@@ -70,6 +70,8 @@ std::vector<Step> shadowCreationSteps()
              h.lightCount = h.occluderCount = 0;
              const CndLightingDesc desc{.structSize = sizeof desc,
                                         .framesInFlight = 1,
+                                        .shading =
+                                            CND_SHADING_CLUSTERED_BIT | CND_SHADING_COUNT_PAIRS_BIT,
                                         .forwardStages = VK_SHADER_STAGE_FRAGMENT_BIT,
                                         .lightTypes = 1u << CND_LIGHT_POLYGON,
                                         .shadows = {.points = 64}};
@@ -94,11 +96,12 @@ std::vector<Step> shadowCreationSteps()
                   .axisU = {0.5f, 0, 0},
                   .axisV = {0, 0.5f, 0},
                   .polygon = &polygon,
-                  .unshadowedBy = 1}};
-             CndLightId ids[2];
-             const CndResult result = cndAddLights(h.lighting, 2, lights, ids, error);
+                  .unshadowedBy = 1},
+                 {.type = CND_LIGHT_DISTANT_SPHERE, .radius = 0.1f, .direction = {0, -1, 0}}};
+             CndLightId ids[3];
+             const CndResult result = cndAddLights(h.lighting, 3, lights, ids, error);
              if (result == CND_SUCCESS)
-                 h.lightCount = 2;
+                 h.lightCount = 3;
              return result;
          }},
     };

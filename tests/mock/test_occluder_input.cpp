@@ -276,6 +276,41 @@ TEST_F(OccluderInput, TheDeviceLimitsTheNumbers)
     }
 }
 
+// Of the device, and of the heap.
+TEST_F(OccluderInput, MemoryMayRunOut)
+{
+    const std::vector<float> positions(9 * 3000);
+    const CndOccluderMesh mesh{
+        .positions = positions.data(), .vertexCount = 9000, .triangleCount = 3000};
+    const std::vector<CndOccluderInstance> instances(700, instance_);
+    std::vector<uint64_t> ids(instances.size(), 7);
+    const auto addMesh = [&](CndError* error) {
+        return cndAddOccluderMeshes(lighting_.get(), 1, &mesh, ids.data(), error);
+    };
+    const auto addInstances = [&](CndError* error) {
+        return cndAddOccluders(lighting_.get(), uint32_t(instances.size()), instances.data(),
+                               ids.data(), error);
+    };
+    const auto failsTwice = [&](const auto& call, const std::string& buffer) {
+        CndError error{};
+        vulkan_.failingCall = vulkan_.failableCalls.size();
+        vulkan_.error = VK_ERROR_OUT_OF_DEVICE_MEMORY;
+        EXPECT_EQ(call(&error), CND_ERROR_OUT_OF_MEMORY);
+        refused(error, "creating buffer " + buffer + " failed (VK_ERROR_OUT_OF_DEVICE_MEMORY)",
+                CND_ERROR_OUT_OF_MEMORY);
+        CndResult result = CND_SUCCESS;
+        {
+            const HostAllocations heap(0);
+            result = call(&error);
+        }
+        EXPECT_EQ(result, CND_ERROR_OUT_OF_MEMORY);
+        refused(error, "out of host memory", CND_ERROR_OUT_OF_MEMORY);
+        EXPECT_EQ(ids, std::vector<uint64_t>(instances.size(), 7));
+    };
+    failsTwice(addMesh, "occluder nodes");
+    failsTwice(addInstances, "occluder instances");
+}
+
 TEST_F(OccluderInput, CreationIsChecked)
 {
     const auto refusedModule = [&](const CndLightingDesc& desc, const std::string& sentence,
