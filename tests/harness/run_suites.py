@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs the tests of some suites: run_suites.py EXECUTABLE SUITE...
 
-Twenty-five suites share a process, and with it their pipelines. More would take more memory: drivers keep some for each
-pipeline, and all GPU tests in one process took 5.9 GB on llvmpipe. If a test ends the process, the tests after it run
+They share a process, and with it their pipelines. If a test ends the process, the tests after it run
 in a new one. Only the output of tests that did not pass is printed, and their names again at the end.
 CANDELABRA_EXCLUDED_TESTS holds patterns of GoogleTest, separated by ':', of tests that do not run.
 CANDELABRA_FULL_TESTS=1 runs each suite in a process of its own, and its tests in random order.
@@ -59,8 +58,7 @@ def run(executable, suites):
 
 
 program, *names = sys.argv[1:]
-size = 1 if full else 25
-for first in range(0, len(names), size):
-    run(program, names[first:first + size])
+for suites in [[name] for name in names] if full else [names]:
+    run(program, suites)
 print(f"{len(passed)} passed, {len(skipped)} skipped, {len(failed)} failed" + "".join(f"\nfailed: {n}" for n in failed))
 sys.exit(1 if failed else 0)
