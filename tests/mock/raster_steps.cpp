@@ -14,17 +14,17 @@ namespace
 constexpr uint32_t frameWidth = 64, frameHeight = 48;
 
 // Static, so that nothing of it is allocated while the heap fails.
-constexpr gbuffer::Vertex vertices[] = {
+constexpr gbuffer::Vertex meshVertices[] = {
     {.position = {0, 0, -2}, .normal = {0, 0, 1}, .tangent = {1, 0, 0, 1}},
     {.position = {1, 0, -2}, .normal = {0, 0, 1}, .tangent = {1, 0, 0, 1}},
     {.position = {0, 1, -2}, .normal = {0, 0, 1}, .tangent = {1, 0, 0, 1}}};
-constexpr uint32_t triangle[] = {0, 1, 2};
+constexpr uint32_t meshTriangle[] = {0, 1, 2};
 constexpr uint8_t texels[4 * 4 * 4] = {};
 
 // Creates a scene of a textured mesh, a plane and a ball.
 gbuffer::Geometry makeGeometry(const gpu::Device& device)
 {
-    const gbuffer::Mesh mesh{vertices, triangle};
+    const gbuffer::Mesh mesh{meshVertices, meshTriangle};
     const gbuffer::Texture texture{.width = 4, .height = 4, .rgba = texels};
     gbuffer::Material material;
     material.baseColorTexture.texture = 0;

@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "harness/constants.h"
 
 namespace candelabra::test
 {
 namespace
 {
-
-constexpr double pi = std::numbers::pi;
 
 // Two unit vectors perpendicular to z and to each other.
 std::array<glm::dvec3, 2> frameOf(const glm::dvec3& z)

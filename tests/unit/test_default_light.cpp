@@ -3,8 +3,8 @@
 #include <cmath>
 #include <ctime>
 #include <limits>
-#include <numbers>
 
+#include "harness/constants.h"
 #include "load/brightness.h"
 #include "load/studio.h"
 #include "shared/lighting_data.h"
@@ -16,7 +16,6 @@ namespace
 {
 
 using namespace candelabra::app;
-using std::numbers::pi;
 
 class DefaultLight : public GltfTest
 {

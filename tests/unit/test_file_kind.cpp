@@ -104,9 +104,9 @@ TEST_F(FileKind, ExampleFilesAreScenes)
     EXPECT_EQ(gltf.cameras.at(0).name, "front");
 
     write("scene.json", exampleSceneJson());
-    const Scene json = loadScene(path("scene.json"), {});
-    EXPECT_EQ(json.analyticObjects.size(), 4u);
-    EXPECT_EQ(json.lights.size(), 3u);
+    const Scene jsonScene = loadScene(path("scene.json"), {});
+    EXPECT_EQ(jsonScene.analyticObjects.size(), 4u);
+    EXPECT_EQ(jsonScene.lights.size(), 3u);
 
     const Image sky = exampleSky();
     saveHdr(path("sky.hdr"), sky);

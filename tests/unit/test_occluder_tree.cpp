@@ -178,11 +178,11 @@ TEST(OccluderTree, IsSoundForAnyInput)
     expectSound(itemsOf(Triangles(1000, {{glm::vec3(1), glm::vec3(1), glm::vec3(1)}})),
                 "all in one point");
 
-    Triangles flat = random.triangles(1000), needles = flat;
-    for (gpu::OccluderTriangle& t : flat)
+    Triangles flatOnes = random.triangles(1000), needles = flatOnes;
+    for (gpu::OccluderTriangle& t : flatOnes)
         for (glm::vec3& corner : t.corners)
             corner.y = 3;
-    expectSound(itemsOf(flat), "flat");
+    expectSound(itemsOf(flatOnes), "flat");
     for (gpu::OccluderTriangle& t : needles)
         t.corners[2] = t.corners[1] = t.corners[0] + glm::vec3(100, 1e-7f, 0);
     expectSound(itemsOf(needles), "needles");
