@@ -34,12 +34,14 @@ UploadedBuffer::UploadedBuffer(const Device& device, Recordings& recordings, con
 
 Buffer UploadedBuffer::create(VkDeviceSize bytes) const
 {
+    constexpr VkDeviceSize texelBytes = 4 * sizeof(float);
     const VkBufferUsageFlags more = texels_ ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : 0;
-    Buffer out = createBuffer(device_, name_, bytes,
-                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
-                                  VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-                                  VK_BUFFER_USAGE_TRANSFER_DST_BIT | more,
-                              MemoryUse::Device);
+    const VkDeviceSize whole = texels_ ? (bytes + texelBytes - 1) / texelBytes * texelBytes : bytes;
+    Buffer out =
+        createBuffer(device_, name_, whole,
+                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                         VK_BUFFER_USAGE_TRANSFER_DST_BIT | more,
+                     MemoryUse::Device);
     if (texels_)
         createTexelView(device_, out);
     return out;

@@ -44,12 +44,9 @@ public:
     // The layers of all instances, and perhaps of some that have been replaced or removed.
     uint32_t layers() const { return count() ? layers_ : 0; }
 
-    bool isChanged() const
-    {
-        return !treeIsMade_ || recordBuffer_.isChanged();
-    }
+    bool isChanged() const { return !treeIsMade_ || recordBuffer_.isChanged(); }
     // Makes the tree anew if it needs that, and records the upload of what has changed but for the
-    // nodes, which are in the buffer of the meshes'.
+    // nodes, which MeshTable uploads.
     void recordUpload(const gpu::Frame& frame, uint64_t recording) noexcept;
 
     // The following hold after recordUpload().

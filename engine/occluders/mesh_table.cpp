@@ -164,8 +164,7 @@ MeshTable::MeshTable(const gpu::Device& device, gpu::Recordings& recordings, uin
     : device_(device),
       instanceNodeCapacity_(instanceNodeCapacity),
       nodes_{.buffer = {device, recordings, "occluder nodes",
-                        (VkDeviceSize(capacity) + instanceNodeCapacity) *
-                            sizeof(gpu::OccluderNode),
+                        (VkDeviceSize(capacity) + instanceNodeCapacity) * sizeof(gpu::OccluderNode),
                         true}},
       triangles_{.buffer = {device, recordings, "occluder triangles",
                             capacity * VkDeviceSize(sizeof(gpu::OccluderTriangle)), true}}
@@ -232,26 +231,29 @@ void MeshTable::add(std::span<const OccluderMesh> meshes, OccluderMeshId* ids)
 
 void MeshTable::reserveInstanceNodes(uint32_t count)
 {
-    const auto [first, present] = instanceNodes_;
+    const auto [first, present, used] = instanceNodes_;
     if (count <= present) {
-        nodes_.reserve(present, 1);
+        nodes_.reserve(count, 1);
+        instanceNodes_.used = count;
         return;
     }
     nodes_.ranges.reserve(1);
-    const uint32_t room = std::max({count, present + present / 2, instanceNodeCapacity_});
+    const uint64_t most = device_.limits.maxStorageBufferRange / sizeof(gpu::OccluderNode);
+    uint32_t room = std::max({count, present + present / 2, instanceNodeCapacity_});
+    if (uint64_t(nodes_.ranges.end()) + room > most)
+        room = count;
     const uint32_t moved = nodes_.ranges.take(room);
     try {
         requireRange("cndAddOccluders", device_, nodes_.ranges.end(), sizeof(gpu::OccluderNode));
-        nodes_.reserve(room, 1);
+        nodes_.reserve(count, 1);
+        nodes_.contents.resize(std::max<size_t>(nodes_.contents.size(), moved + room));
     } catch (...) {
         nodes_.ranges.give(moved, room);
         throw;
     }
-    nodes_.contents.resize(std::max<size_t>(nodes_.contents.size(), moved + room));
-    std::copy_n(nodes_.contents.begin() + first, present, nodes_.contents.begin() + moved);
     if (present)
         nodes_.ranges.give(first, present);
-    instanceNodes_ = {moved, room};
+    instanceNodes_ = {moved, room, count};
     markInstanceNodes();
 }
 
@@ -263,7 +265,7 @@ void MeshTable::replacePositions(OccluderMeshId id, const float* positions, uint
     const Mesh& mesh = (*this)[id];
     const Positions from(positions, stride, mesh.vertexCount);
     from.check(std::string(call) + ": positions");
-    nodes_.reserve(VkDeviceSize(mesh.nodeCount) + instanceNodes_.count, 2);
+    nodes_.reserve(VkDeviceSize(mesh.nodeCount) + instanceNodes_.used, 2);
     triangles_.reserve(mesh.triangleCount, 1);
     gpu::OccluderTriangle* const triangles = &triangles_.contents[mesh.firstTriangle];
     for (uint32_t i = 0; i < mesh.triangleCount; ++i)
@@ -291,7 +293,7 @@ void MeshTable::remove(std::span<const OccluderMeshId> ids)
 
 void MeshTable::markInstanceNodes() noexcept
 {
-    nodes_.changed(instanceNodes_.first, instanceNodes_.count);
+    nodes_.changed(instanceNodes_.first, instanceNodes_.used);
 }
 
 void MeshTable::recordUpload(const gpu::Frame& frame, uint64_t recording) noexcept

@@ -40,8 +40,9 @@ public:
     void replacePositions(OccluderMeshId id, const float* positions, uint32_t stride);
     void remove(std::span<const OccluderMeshId> ids);
 
-    // Makes room for so many nodes of the tree over instances, and for their upload. Throws
-    // gpu::Failure and then leaves everything as it was.
+    // Makes room for so many nodes of the tree over instances, and for their upload. If it has to
+    // move them, all of them are to be written anew. Throws gpu::Failure and then leaves everything
+    // as it was.
     void reserveInstanceNodes(uint32_t count);
     // The next upload takes all nodes of this tree, which are written before.
     void markInstanceNodes() noexcept;
@@ -91,9 +92,10 @@ private:
 
     const gpu::Device& device_;
     uint32_t instanceNodeCapacity_;
+    // The range of the tree over instances, and how many of its nodes may be in use.
     struct {
-        uint32_t first = 0, count = 0;
-    } instanceNodes_; // the range of the tree over instances
+        uint32_t first = 0, room = 0, used = 0;
+    } instanceNodes_;
     gpu::IdTable ids_;
     std::vector<Mesh> meshes_; // indexed by slot
     Pool<gpu::OccluderNode> nodes_;

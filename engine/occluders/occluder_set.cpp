@@ -64,6 +64,22 @@ uint32_t checkedCapacity(const char* name, uint32_t capacity, uint64_t most)
     return capacity;
 }
 
+// Returns how many nodes of the tree over so many instances there may be. They share a buffer with
+// those of the meshes, about one per triangle.
+uint32_t checkedNodeCapacity(const gpu::Device& device, uint32_t triangles, uint32_t instances)
+{
+    checkedCapacity("instanceCapacity", instances, maxOccluders(device.limits));
+    const uint64_t bytes =
+        (uint64_t(triangles) + 2 * uint64_t(instances)) * sizeof(gpu::OccluderNode);
+    if (bytes > device.limits.maxStorageBufferRange)
+        gpu::failUnsupported(
+            "CndShadowDesc: triangleCapacity and instanceCapacity need a buffer of " +
+            std::to_string(bytes) +
+            " bytes for nodes, more than the device's maxStorageBufferRange, " +
+            std::to_string(device.limits.maxStorageBufferRange));
+    return 2 * instances;
+}
+
 uint64_t maxMeshTriangles(const gpu::Device& device)
 {
     return device.limits.maxStorageBufferRange / sizeof(gpu::OccluderTriangle);
@@ -73,7 +89,7 @@ uint64_t maxMeshTriangles(const gpu::Device& device)
 
 uint32_t maxOccluders(const VkPhysicalDeviceLimits& limits)
 {
-    // The largest of the buffers with an element or two nodes per instance.
+    // The largest buffer with an element per instance. Two nodes per instance take less.
     return uint32_t(limits.maxStorageBufferRange / sizeof(gpu::OccluderInstance));
 }
 
@@ -84,8 +100,7 @@ OccluderSet::OccluderSet(const gpu::Device& device, gpu::Recordings& recordings,
       prepare_(std::move(prepare)),
       meshes_(device, recordings,
               checkedCapacity("triangleCapacity", triangleCapacity, maxMeshTriangles(device)),
-              2 * checkedCapacity("instanceCapacity", instanceCapacity,
-                                  maxOccluders(device.limits))),
+              checkedNodeCapacity(device, triangleCapacity, instanceCapacity)),
       instances_(device, recordings, meshes_, instanceCapacity)
 {
 }

@@ -33,7 +33,7 @@ public:
     void writeBindings(const FramePlan& plan, const Inputs& inputs) const;
     // The bindings through which kernels walk through occluders.
     std::array<gpu::Binding, 5> occluderBindings(uint32_t slot) const;
-    // The same buffers as texels. Bindings of the forward set are without them.
+    // The same buffers as texels. The forward set does not have them.
     std::array<gpu::Binding, 3> occluderTexels() const;
     // The binding SHADE_COUNTERS of kernels that count shadows.
     static gpu::Binding counters(const gpu::Buffer& counters);

@@ -59,7 +59,8 @@ uvec2 pointsHiddenBy(Walk w, uint pair, uint triangle, uvec2 lit)
                           sheetVertex(pair, triangle, 2u), w.ownDistance, lit, turns);
 }
 
-// Sets whether the sheet may hide points according to the test of its box.
+// Tests the box of the sheet: which points it may hide, and whether it is in the cone of those that
+// the sheet hides.
 void testBox(Walk w, uint pair, inout VisibilityProbeOutput result)
 {
     vec3 low = sheetVertex(pair, 0u, 0u), high = low;
@@ -68,9 +69,14 @@ void testBox(Walk w, uint pair, inout VisibilityProbeOutput result)
         low = min(low, vertex);
         high = max(high, vertex);
     }
-    const vec3 slack = vec3(BOX_SLACK * (1.0 + norm1(inputs[pair].localPosition)));
-    const FacetCone cone = facetCone(w.facet, facetVectors(w.facet, inputs[pair].localFromView),
-                                     ALL_POINTS);
+    const FacetVectors vectors = facetVectors(w.facet, inputs[pair].localFromView);
+    const vec3 slack = vec3(BOX_SLACK * (1.0 + norm1(inputs[pair].localPosition)) +
+                            roundingOf(vectors, w.local) * norm1(max(abs(low), abs(high))));
+    result.inBox = boxPoints(pointCount, w.facet.shape, w.facet.front, w.local, low - slack,
+                             high + slack);
+    const FacetCone cone = facetCone(
+        w.facet, vectors,
+        isEmpty(result.hidden) ? ALL_POINTS : pointBounds(pointCount, w.facet.shape, result.hidden));
     result.touchesCone = coneTouches(cone, low - slack, high + slack) ? 1u : 0u;
 }
 

@@ -134,7 +134,7 @@ void enterSpace(inout OccluderWalk w, OccluderQuery q, mat3 viewFromLocal, mat3 
     const vec3 farthest = max(abs(root.low - position), abs(root.high - position));
     w.space.slack = BOX_SLACK * (1.0 + norm1(position)) +
                     roundingOf(vectors, w.space.coordinates) * norm1(farthest);
-    const uvec2 points = litPointsIn(w, root);
+    const uvec2 points = isEmpty(w.lit) ? uvec2(0u) : litPointsIn(w, root);
     if (isEmpty(points))
         w.node = w.end;
     w.space.whole = facetCone(f, vectors, ALL_POINTS);
@@ -182,8 +182,8 @@ bool boxIsInCone(OccluderWalk w, FacetCone cone, vec3 low, vec3 high)
                        (high - w.space.position) + w.space.slack);
 }
 
-// A triangle hides nothing if its own box is beside the cone of all points. Only thus does rounding
-// not decide what the walk leaves out.
+// A triangle hides nothing if its own box is beside the cone of all points. Otherwise rounding would
+// decide which triangles the walk leaves out.
 uvec2 pointsHiddenBy(OccluderWalk w, uint triangle, inout uint turns)
 {
     const OccluderTriangle t = occluderTriangle(w.firstTriangle + triangle);
@@ -196,6 +196,13 @@ uvec2 pointsHiddenBy(OccluderWalk w, uint triangle, inout uint turns)
                           t.corners[2] - w.space.position, w.space.ownDistance, w.lit, turns);
 }
 
+// Returns how many turns the device counts, if it limits loops: the lanes that run together take the
+// turns of the slowest one in each loop.
+uint turnsOfAll(uint turns)
+{
+    return mostWalkTurns != 0u ? subgroupMax(turns) : turns;
+}
+
 // Walks on until the tree ends, the queue is full, or a leaf with instances is found that may hide
 // points. Returns how many leaves are in the queue.
 uint findLeaves(inout OccluderWalk w, inout uint turns)
@@ -203,7 +210,7 @@ uint findLeaves(inout OccluderWalk w, inout uint turns)
     uint queued = 0u;
     bool found = false, walks;
     OccluderNode node;
-    do { // until all lanes have found something: this loop may not differ between lanes (visiblePoints)
+    do { // This loop ends in all lanes at once (visiblePoints).
         do {
             ++turns;
             if (w.node < w.end && queued < LEAF_QUEUE && !found) {
@@ -218,6 +225,7 @@ uint findLeaves(inout OccluderWalk w, inout uint turns)
                 w.node = touches && !isLeaf ? w.node + 1u : node.skip;
             }
         } while (w.node < w.end && queued < LEAF_QUEUE && !found && turns < ROUND_TURNS);
+        turns = turnsOfAll(turns) + 1u;
         found = found && !isEmpty(litPointsIn(w, node));
         walks = w.node < w.end && queued < LEAF_QUEUE && !found && turns < ROUND_TURNS;
     } while (subgroupAny(walks));
@@ -232,7 +240,7 @@ void testLeaves(inout OccluderWalk w, uint queued, inout uint turns)
     uint at = 0u;
     uint leaf = QUEUED_LEAF(0u);
     do {
-        ++turns;
+        turns = turnsOfAll(turns) + 1u;
         if (at < queued && !isEmpty(w.lit)) {
             w.lit &= ~pointsHiddenBy(w, leafFirst(leaf), turns);
             leaf = withoutFirst(leaf);
@@ -251,7 +259,8 @@ uvec2 visiblePoints(OccluderQuery q, TreeSpace tree, bool asks, out bool isFinis
     OccluderWalk w = walkFromRoot();
     const bool mayWalk = mostWalkTurns == 0u || walkTurns < mostWalkTurns;
     bool walks = asks && mayWalk;
-    // The loops inside this one may differ between lanes. This one may not: llvmpipe would lose leaves.
+    // This loop may not differ between lanes, nor may the outer loop of findLeaves(): llvmpipe would
+    // lose leaves. The loops inside them may.
     do {
         uint turns = 1u;
         if (walks) {
@@ -264,9 +273,7 @@ uvec2 visiblePoints(OccluderQuery q, TreeSpace tree, bool asks, out bool isFinis
             const bool isDone = !w.inMesh && w.node >= w.end && leafCount(w.leaf) == 0u;
             walks = !isEmpty(w.lit) && !isDone;
         }
-        // The lanes that run together take the turns of the slowest one in each loop.
-        if (mostWalkTurns != 0u)
-            walkTurns += subgroupMax(turns);
+        walkTurns += turnsOfAll(turns);
     } while (subgroupAny(walks) && (mostWalkTurns == 0u || walkTurns < mostWalkTurns));
     isFinished = !asks || (mayWalk && !walks);
     return w.lit;

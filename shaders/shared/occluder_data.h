@@ -87,7 +87,7 @@ const uint SHADOW_VIEW = 29u;
 // Bindings of the kernels that read or write visible shares.
 const uint SHADOW_SLOTS = 30u;
 const uint SHADOW_PAGE_SLOTS = 31u; // per page of the entry buffer: the slot of its first light
-// The same buffers as texels (shading/software_drivers.glsl); not in the forward set.
+// Instances, nodes and triangles as texels (shading/software_drivers.glsl); not in the forward set.
 const uint SHADOW_INSTANCE_TEXELS = 32u;
 const uint SHADOW_NODE_TEXELS = 33u;
 const uint SHADOW_TRIANGLE_TEXELS = 34u;

@@ -33,11 +33,12 @@ GPU_SIZE(VisibilityProbeInput, 484)
 struct VisibilityProbeOutput {
     uvec2 members;
     uvec2 hidden;     // by the sheet
-    uint touchesCone; // 1: coneTouches()
+    uvec2 inBox;      // boxPoints() of the sheet
+    uint touchesCone; // 1: coneTouches() of the sheet and the points that it hides
     vec2 shares;      // visible shares
     vec3 largest;     // sums of the sizes of all numbers of the facet and its light coordinates
 };
-GPU_SIZE(VisibilityProbeOutput, 40)
+GPU_SIZE(VisibilityProbeOutput, 48)
 
 GPU_END
 

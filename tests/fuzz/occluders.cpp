@@ -3,12 +3,14 @@
 // and recordings, with raw bytes as positions, indices, transforms, ids and formats, and with
 // memory that runs out. Each call must accept what the headers allow, refuse everything else with a
 // sentence, and change nothing when it fails.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <functional>
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
@@ -456,6 +458,10 @@ private:
         const Segment segment{glm::dvec3(-30, 1, 2), glm::dvec3(30, 2, 1)};
         for (const gpu::OccluderNode& node : set.instances().nodes())
             require(std::isfinite(lighting::halfSurface(lighting::boxOf(node))), "a box");
+        const auto uploaded = set.meshes().allNodes().subspan(set.meshes().firstInstanceNode());
+        require(std::ranges::equal(std::as_bytes(uploaded.first(set.instances().nodes().size())),
+                                   std::as_bytes(set.instances().nodes())),
+                "the nodes of instances");
         walkTree(set.instances().nodes(), segment, [&](uint32_t place) {
             const gpu::OccluderRecord& r = set.instances().records()[place];
             if (r.flags)

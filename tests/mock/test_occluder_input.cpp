@@ -343,6 +343,11 @@ TEST_F(OccluderInput, CreationIsChecked)
     desc.shadows = {.points = 32, .instanceCapacity = 2000000};
     refusedModule(desc, "CndShadowDesc: instanceCapacity is 2000000, the device can take 1198372",
                   CND_ERROR_UNSUPPORTED);
+    desc.shadows = {.points = 32, .triangleCapacity = 3700000, .instanceCapacity = 400000};
+    refusedModule(desc,
+                  "CndShadowDesc: triangleCapacity and instanceCapacity need a buffer of 144000000 "
+                  "bytes for nodes, more than the device's maxStorageBufferRange, 134217728",
+                  CND_ERROR_UNSUPPORTED);
 }
 
 TEST_F(OccluderInput, ViewsAreChecked)

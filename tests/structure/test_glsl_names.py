@@ -112,7 +112,8 @@ with tempfile.TemporaryDirectory() as folder:
                                 "shaders/host_shaders.cmake does not see its declaration")
     # Hosts read and write members, whose names must stay.
     for name, struct in {"lib/surface.glsl": "Surface", "lib/shadow_query.glsl": "ShadowQuery",
-                         "lib/visibility_query.glsl": "VisibilityQuery", "shading/forward_lights.glsl": "LightCursor"}.items():
+                         "lib/visibility_query.glsl": "VisibilityQuery",
+                         "shading/forward_lights.glsl": "LightCursor"}.items():
         ours, theirs = members_of(root / "shaders" / name, struct), members_of(copies / name, "Cnd" + struct)
         if ours != theirs:
             failures.append(f"{name}: the members {ours} of {struct} are {theirs} for hosts; a name that is "

@@ -85,14 +85,15 @@ layout(set = 1, binding = 0) uniform accelerationStructureEXT scene;
 uvec2 candelabraVisiblePoints(CndVisibilityQuery q)
 {
     const bool endless = q.facet.front.inverseDistance == 0.0;
-    const vec3 from = q.position + 4.0 * q.ownDistance * q.normal;
+    const vec3 away = 4.0 * q.ownDistance * q.normal;
     uvec2 seen = uvec2(0u);
     for (uint i = 0u; i < q.count; ++i) {
         if ((q.points[i / 32u] >> i % 32u & 1u) == 0u)
             continue;
+        const vec3 way = cndLightPoint(q, i) - (endless ? vec3(0.0) : away);
         rayQueryEXT ray;
-        rayQueryInitializeEXT(ray, scene, gl_RayFlagsTerminateOnFirstHitEXT, 0xFF, from, 0.0,
-                              cndLightPoint(q, i), endless ? 1e30 : 1.0);
+        rayQueryInitializeEXT(ray, scene, gl_RayFlagsTerminateOnFirstHitEXT, 0xFF,
+                              q.position + away, 0.0, way, endless ? 1e30 : 1.0);
         while (rayQueryProceedEXT(ray)) {}
         if (rayQueryGetIntersectionTypeEXT(ray, true) == gl_RayQueryCommittedIntersectionNoneEXT)
             seen[i / 32u] |= 1u << i % 32u;

@@ -36,16 +36,14 @@ typedef enum CndHostFunctionBits {
     // rotation is available as cndGbufferView.viewFromWorld.
     CND_HOST_READ_SURFACE_BIT = 2,
     // `uvec2 candelabraVisiblePoints(CndVisibilityQuery query)`: which points of a light a surface
-    // sees, found with rays of the host. It takes the place of the library's occluders, which are
-    // then ignored: every light but those with CndLight::unshadowed asks the function, in every
-    // frame without CndLightingFrame::shadowsOff. It needs `shadows`. Everything is in view space,
-    // in metres:
+    // sees, found with rays of the host. The module's kernels then ignore occluders:
+    // every light but those with CndLight::unshadowed asks the function, in every frame without
+    // CndLightingFrame::shadowsOff. It needs `shadows`. Everything is in view space, in metres:
     // - `light`, `type`, `position` and `normal` are as above.
     // - `points` are asked for: bit i of x, and bit i - 32 of y for the points from 32 on. The
     //   result has the bits of those that are seen. Other bits of it are ignored.
     // - `vec3 cndLightPoint(query, i)` is the way from `position` to point i of the light. It ends
-    // a
-    //   little before the light's surface, so a ray tests all of it. For distant lights it is a
+    //   a little before the light's surface, so a ray tests all of it. For distant lights it is a
     //   direction of any length, and the ray has no end.
     // - `ownDistance`: a surface whose plane is at most so far from `position` hides nothing. It is
     //   the surface's own, as far as depth and rounding can tell.

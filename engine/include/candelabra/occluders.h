@@ -29,7 +29,7 @@ typedef struct CndOccluderMesh {
     // 3 * triangleCount.
     const uint32_t* indices;
     // 1..2^28. The triangles of all meshes must fit into a buffer of maxStorageBufferRange bytes,
-    // 36 bytes each, and so must the nodes of their trees, 32 bytes each (about one per triangle).
+    // 36 bytes each. So must all nodes, 32 bytes each: about one per triangle and two per instance.
     // Otherwise the call fails with CND_ERROR_UNSUPPORTED.
     uint32_t triangleCount;
 } CndOccluderMesh;

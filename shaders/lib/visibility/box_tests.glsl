@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests whether the triangles in a box may hide points of a facet. Boxes are relative to the receiver.
-// The caller has moved each side outwards by BOX_SLACK times (1 + norm1(receiver's position)). The test
-// keeps a box, bit for bit, if it keeps a box inside it. Of boxes in another space than the triangle's,
-// it keeps those with a triangle that hides points (trianglePoints) if the caller has also moved each
-// side by roundingOf() times the distance of the farthest vertex.
+// The caller has moved each side outwards by BOX_SLACK times (1 + norm1(receiver's position)). Both
+// tests keep a box, bit for bit, if they keep a box inside it. They keep a box with a triangle that
+// hides points (trianglePoints), also in another space than the triangle's, if the caller has moved each
+// side by roundingOf() times the distance of the farthest vertex, too.
 #ifndef CND_LIB_VISIBILITY_BOX_TESTS
 #define CND_LIB_VISIBILITY_BOX_TESTS
 
@@ -14,7 +14,7 @@ const float BOX_SLACK = 2e-6;
 // two spaces: boxes are tested in that of the tree over instances, too.
 const float COORDINATE_SLACK = 9.5367431640625e-7; // 2^-20
 
-// A cone with its tip at the receiver, which holds all points in front of the facet: at the share t of
+// A cone with its tip at the receiver, which holds the ways to points of the facet: at the share t of
 // the way, 0..1, it is the box from t low to t high.
 struct FacetCone {
     vec3 inverseLow;
@@ -42,15 +42,15 @@ FacetVectors facetVectors(Facet f, mat3 localFromView)
     return FacetVectors(localFromView * f.centre, localFromView * f.halfU, localFromView * f.halfV);
 }
 
-// How far beside the bounds of points a triangle may lie that hides one of them. It is more than a step
-// of POINT_PREFIXES.
+// A triangle that hides one of the points is at most so far outside their bounds. It is more than a
+// step of POINT_PREFIXES.
 const float POINT_BOUNDS_MARGIN = 0.07;
 
 // Bounds of points in units of the half axes: low u, low v, high u, high v.
 const vec4 ALL_POINTS = vec4(-1.0, -1.0, 1.0, 1.0);
 
-// Returns the bounds of a set of points, POINT_BOUNDS_MARGIN away from them. A set of more than
-// two points has only bounds of u: the points are sorted by it. `points` is not empty.
+// Returns the bounds of a set of points, POINT_BOUNDS_MARGIN away from them. More than two points are
+// bounded in u alone, by which points are sorted. `points` is not empty.
 vec4 pointBounds(uint count, uint shape, uvec2 points)
 {
     const uint first = points.x != 0u ? uint(findLSB(points.x)) : 32u + uint(findLSB(points.y));
