@@ -23,11 +23,11 @@ void PreparedOccluders::makeRoom(uint32_t places)
         return;
     const VkDeviceSize most = device_.limits.maxStorageBufferRange;
     const VkDeviceSize wanted = std::min(most, instances_.size + instances_.size / 2);
-    gpu::Buffer larger = gpu::createBuffer(
-        device_, "occluder instances", std::max(bytes, wanted),
-        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
-            VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-        gpu::MemoryUse::Scratch);
+    gpu::Buffer larger = gpu::createBuffer(device_, "occluder instances", std::max(bytes, wanted),
+                                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                                               VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
+                                               VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                           gpu::MemoryUse::Scratch);
     gpu::createTexelView(device_, larger);
     recordings_.replace(instances_, std::move(larger));
 }

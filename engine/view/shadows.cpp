@@ -126,8 +126,7 @@ std::array<Binding, 5> Shadows::occluderBindings(uint32_t slot) const
     return {bind(gpu::SHADOW_INSTANCES, prepared_.buffer()),
             bind(gpu::SHADOW_NODES, occluders.meshes().nodes()),
             bind(gpu::SHADOW_TRIANGLES, occluders.meshes().triangles()),
-            Binding::ofTexels(gpu::SHADOW_POINTS, points_),
-            view(slot)};
+            Binding::ofTexels(gpu::SHADOW_POINTS, points_), view(slot)};
 }
 
 std::array<Binding, 3> Shadows::occluderTexels() const

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds which points of a light's facet (lib/visibility) a receiver sees: it walks through the tree
 // over the instances of occluders, and through the trees of the meshes that the light's cone touches.
-// The includer defines occluderInstance(), occluderNode() and occluderTriangle(), which read an element
-// of an array (shared/occluder_data.h), and facetOf(). A kernel defines QUEUE_LANES, the number of lanes of
-// a group, if lanes may keep queues in shared memory.
+// The includer defines occluderInstance(), occluderNode() and occluderTriangle(), which read an
+// element of an array (shared/occluder_data.h), and facetOf(). A kernel defines QUEUE_LANES, the
+// number of lanes of a group, if lanes may keep queues in shared memory.
 #ifndef CND_SHADING_OCCLUDER_WALK
 #define CND_SHADING_OCCLUDER_WALK
 

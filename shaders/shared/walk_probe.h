@@ -18,9 +18,9 @@ struct WalkProbeParams {
     mat3 viewFromTree;
     vec3 viewInTree;
     uint count;
-    uint layers, ignored; // OccluderQuery
-    uint firstNode;       // ShadowView
-    uint walks;           // 0: it only tests triangles
+    uint layers, ignored;        // OccluderQuery
+    uint firstNode;              // ShadowView
+    uint walks;                  // 0: it only tests triangles
     uint firstTested, endTested; // of this tree: the triangles of these nodes are tested
 };
 GPU_SIZE(WalkProbeParams, 76)
@@ -38,8 +38,8 @@ GPU_SIZE(WalkProbeInput, 68)
 
 struct WalkProbeOutput {
     uvec2 members;
-    uvec2 walked; // visible points by the walk
-    uvec2 tested; // visible points by tests of the triangles that the parameters name
+    uvec2 walked;  // visible points by the walk
+    uvec2 tested;  // visible points by tests of the triangles that the parameters name
     uint finished; // 0: the device ended the walk
 };
 GPU_SIZE(WalkProbeOutput, 28)

@@ -2,8 +2,8 @@
 // Tests whether the triangles in a box may hide points of a facet. Boxes are relative to the receiver.
 // The caller has moved each side outwards by BOX_SLACK times (1 + norm1(receiver's position)). Both
 // tests keep a box, bit for bit, if they keep a box inside it. They keep a box with a triangle that
-// hides points (trianglePoints), also in another space than the triangle's, if the caller has moved each
-// side by roundingOf() times the distance of the farthest vertex, too.
+// hides points (trianglePoints), also in another space than the triangle's, if the caller has moved
+// each side by roundingOf() times the distance of the farthest vertex, too.
 #ifndef CND_LIB_VISIBILITY_BOX_TESTS
 #define CND_LIB_VISIBILITY_BOX_TESTS
 
