@@ -124,7 +124,7 @@ typedef enum CndShadingBits {
 typedef struct CndShadowDesc {
     // 0 (no shadows), 32 or 64: how many points of each light a pixel asks for. 64 cost little
     // more. With points the device needs maxPerStageDescriptorStorageBuffers of 11, and depth must
-    // have more than 16 bits: CndGBufferDesc::depthFormat is D24, D32 or a format of 32-bit floats.
+    // have at least 24 bits: CndGBufferDesc::depthFormat is D24, D32 or a format of 32-bit floats.
     // If it is VK_FORMAT_UNDEFINED, depth is taken for 32-bit floats.
     uint32_t points;
     // Room that creation makes, for triangles of all meshes and for instances; more is allocated
