@@ -43,7 +43,7 @@ protected:
     // picture, which must remain so, bit for bit.
     Grey bloomed(const Grey& picture, float share) const
     {
-        const auto [width, height] = picture.size;
+        const uint32_t width = picture.size.width, height = picture.size.height;
         std::vector<glm::vec4> texels;
         for (const float value : picture.values)
             texels.emplace_back(value, 2 * value, 4 * value, 1);
