@@ -196,10 +196,10 @@ void InstanceTable::fitAncestors(uint32_t place) noexcept
 // Leaves it to the next recording to make the tree anew. Places without an instance vanish.
 void InstanceTable::dropTree() noexcept
 {
+    meshes_.markInstanceNodes(); // also if there is no tree: more nodes may be in use than before
     if (!treeIsMade_)
         return;
     treeIsMade_ = false;
-    meshes_.markInstanceNodes();
     uint32_t kept = 0;
     for (uint32_t place = 0; place < places(); ++place)
         if (placed_[place].slot != gpu::IdTable::none)

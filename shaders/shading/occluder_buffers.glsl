@@ -70,7 +70,7 @@ OccluderNode occluderNode(uint at)
     return OccluderNode(low.xyz, floatBitsToUint(low.w), high.xyz, floatBitsToUint(high.w));
 }
 
-// The nine words of a triangle lie in three texels, from the word of the first on that has this number.
+// A triangle has nine words. The first one is word 9 at % 4 of a texel.
 OccluderTriangle occluderTriangle(uint at)
 {
     if (!forCpu)

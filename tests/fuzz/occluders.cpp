@@ -18,6 +18,7 @@
 #include "fuzz/fuzz_target.h"
 #include "harness/occluder_walk.h"
 #include "lighting/lighting_module.h"
+#include "mock/host_steps.h"
 #include "mock/mock_vulkan.h"
 
 namespace candelabra::test
@@ -382,7 +383,7 @@ private:
         out.unshadowedBy = input_.below(4) ? input_.below(64) : input_.read<uint32_t>();
         return out;
     }
-    // What is allowed about lights is not repeated here.
+    // Other tests know which lights are valid. Here a call that adds or changes them may fail.
     void editLights()
     {
         std::vector<uint64_t> ids;
@@ -434,16 +435,7 @@ private:
     }
     void record()
     {
-        const VkImageView any = MockVulkan::imageView();
-        CndLightingFrame frame{.structSize = sizeof frame,
-                               .width = 64,
-                               .height = 48,
-                               .camera = MockVulkan::camera(),
-                               .normalRoughness = any,
-                               .albedo = any,
-                               .specular = any,
-                               .depth = any,
-                               .radiance = any};
+        auto frame = surfacesOf<CndLightingFrame>();
         frame.shadowsOff = input_.below(8) == 0;
         frame.layers = input_.read<uint16_t>();
         require(call(Allowed::Yes,

@@ -142,6 +142,21 @@ TEST_F(OccluderTest, TheDeviceHasWhatTheHostHas)
     }
 }
 
+// Meshes and the tree over instances share a buffer, and one upload: it must have room for both.
+TEST_F(OccluderTest, EditsOfInstancesAndMeshesFitIntoOneUpload)
+{
+    OccluderHost host(device(), 20000, 20000); // nothing grows, which would upload everything
+    const OccluderMeshId mesh = addMesh(host, 1);
+    for (const size_t count : {1u, 4000u}) {
+        const std::vector<OccluderInstance> added(count, instance(mesh));
+        std::vector<OccluderId> ids(count);
+        host.set.add(added, ids.data());
+    }
+    addMesh(host, 9000);
+    record(host, glm::dmat4(1));
+    expectAllOnDevice(host.set);
+}
+
 TEST_F(OccluderTest, InstancesAreTransformedAsInDoublePrecision)
 {
     OccluderHost host(device());

@@ -139,7 +139,8 @@ TEST_F(VisibilityBits, LightInFullViewKeepsThem)
             drawn[0] = drawFrame(own.view, frameOf(g, images, options), images);
             continue;
         }
-        // First a triangle behind the camera, then planes between surfaces and lights.
+        // The first mesh is a triangle behind the camera. The second one is a row of triangles that
+        // stand between the surfaces and the lights.
         std::vector<float> positions = {-9, -9, 5, 9, -9, 5, 0, 9, 5};
         for (float x = -4; x <= 4; x += 0.5f)
             positions.insert(positions.end(), {x, -30, 0, x, 30, 0, x, 0, -40});

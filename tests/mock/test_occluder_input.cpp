@@ -276,7 +276,7 @@ TEST_F(OccluderInput, TheDeviceLimitsTheNumbers)
     }
 }
 
-// Of the device, and of the heap.
+// The memory of the device, or the heap, has too little left for an edit.
 TEST_F(OccluderInput, MemoryMayRunOut)
 {
     const std::vector<float> positions(9 * 3000);

@@ -10,8 +10,8 @@ namespace candelabra::app
 
 // Adds everything of the scene that casts shadows (scene/shadow_casters.h). Meshes are the full
 // ones, without levels of detail, and instances share them. Balls become a mesh inside of them,
-// within 0.4% of their radius, and planes a square that reaches far beyond the scene, because
-// lights may be behind them. `materials` has one material for each of the scene's, which it
+// within 0.4% of their radius. Planes become a square that reaches far beyond the scene, because
+// lights may be behind planes. `materials` has one material for each of the scene's, which it
 // replaces. Throws RunError if the engine refuses something.
 void addOccluders(Lighting& lighting, const Scene& scene, const std::vector<Material>& materials);
 
