@@ -95,6 +95,15 @@ CndLightingDesc checkedDesc(const gpu::Device& device, CndLightingDesc desc)
     return desc;
 }
 
+const surfaces::HostKernels& checkedKernels(const surfaces::HostKernels& kernels,
+                                            const CndLightingDesc& desc)
+{
+    if (kernels.findsPoints() && !desc.shadows.points)
+        gpu::failArgument("CndLightingDesc: hostKernels have CND_HOST_VISIBLE_POINTS_BIT, which "
+                          "needs shadows.points of 32 or 64");
+    return kernels;
+}
+
 } // namespace
 
 Lighting::Lighting(const CndDeviceDesc& device, const CndLightingDesc& desc)
@@ -102,7 +111,8 @@ Lighting::Lighting(const CndDeviceDesc& device, const CndLightingDesc& desc)
       desc_(checkedDesc(device_, desc)),
       gbuffer_(device_, desc_.gbufferLayout, desc_.gbuffer),
       hostKernels_(desc_.hostKernels, desc_.gbufferLayout),
-      kernels_(device_, hostKernels_, desc_, gbuffer_.code(), readsLightIds(desc_)),
+      kernels_(device_, checkedKernels(hostKernels_, desc_), desc_, gbuffer_.code(),
+               readsLightIds(desc_)),
       albedoTable_(device_),
       forwardLayout_(createForwardLayout(device_, desc_.forwardStages, desc_.shadows.points != 0)),
       lights_(
@@ -111,9 +121,6 @@ Lighting::Lighting(const CndDeviceDesc& device, const CndLightingDesc& desc)
       module_{device_,  desc_,        recordings_, gbuffer_, hostKernels_,
               kernels_, albedoTable_, lights_,     nullptr}
 {
-    if (hostKernels_.findsPoints() && !desc_.shadows.points)
-        gpu::failArgument("CndLightingDesc: hostKernels have CND_HOST_VISIBLE_POINTS_BIT, which "
-                          "needs shadows.points of 32 or 64");
     if (desc_.shadows.points) {
         occluders_.emplace(device_, recordings_, desc_.shadows.triangleCapacity,
                            desc_.shadows.instanceCapacity, [this](uint32_t places) {

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "candelabra/candelabra.hpp"
+#include "candelabra_shaders.h"
+#include "gpu/spirv.h"
 #include "mock/mock_vulkan.h"
 #include "shared/occluder_data.h"
 
@@ -140,6 +142,20 @@ TEST_F(OccluderInput, MeshesAreChecked)
             replace + "no occluder mesh has the id 7 (generation 0)");
     refused(lighting_.replaceOccluderPositions(instance_.mesh, oneTriangle, 4),
             replace + "stride is 4, must be 0 or a multiple of 4 that is at least 12");
+}
+
+// The sentence comes before pipelines are made, which may take seconds.
+TEST_F(OccluderInput, RaysOfTheHostNeedPoints)
+{
+    const gpu::Spirv& kernel = spirv::pair_visibility_comp_sphere;
+    const CndKernelCode code{"pair_visibility_points", kernel.words.data(),
+                             uint32_t(kernel.words.size())};
+    vulkan_.called.clear();
+    const auto made =
+        Lighting::create(vulkan_.desc(), {.framesInFlight = 1, .hostKernels = {1, &code, {}}});
+    expectSentence(made.error(), "CndLightingDesc: hostKernels have CND_HOST_VISIBLE_POINTS_BIT, "
+                                 "which needs shadows.points of 32 or 64");
+    EXPECT_FALSE(vulkan_.called.contains("CreateComputePipelines"));
 }
 
 TEST_F(OccluderInput, InstancesAreChecked)
