@@ -313,7 +313,7 @@ void Clusters::recordLists(const gpu::Frame& f, uint32_t type, const gpu::TreeSh
     const uint32_t loops = device_.maxLoopIterations;
     const uint32_t blockCount = area(blocksOf(tileCount));
     gpu::ClusterListsParams params{.tree = tree,
-                                   .pageCount = uint32_t(entries_.size / pageBytes) / 2,
+                                   .pageCount = pageCount() / 2,
                                    .longest = longestBlockList,
                                    .maxSteps = loops == UINT32_MAX ? loops : loops / 4 * 3,
                                    // In shade_unlisted the walks of four clusters may run one
@@ -331,7 +331,8 @@ void Clusters::recordLists(const gpu::Frame& f, uint32_t type, const gpu::TreeSh
     };
     dispatch(params.clusterCount);
     f.barrier();
-    params.pageCount *= 2; // the lists of blocks took at most half, so that tiles have the rest
+    // The lists of blocks took at most half, so that tiles have the rest.
+    params.pageCount = pageCount();
     params.longest = longest;
     params.which = gpu::LISTS_OF_TILES;
     params.firstCluster = 0;

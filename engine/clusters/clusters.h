@@ -111,6 +111,8 @@ public:
     // Returns how many tiles have been split if `asked` tiles were deep: there may be room for
     // fewer.
     uint32_t splitTileCount(uint32_t asked) const { return std::min(asked, splitCapacity_); }
+    // Tells whether there were too few pages for the lists, of which `asked` were asked for.
+    bool ranOut(uint32_t asked) const { return asked >= pageCount(); }
     // WorkLists by tile class: tiles with a surface.
     const gpu::Buffer& surfaces() const { return surfaces_; }
 
@@ -119,6 +121,10 @@ private:
     // tiles, then the slices of blocks.
     uint32_t maxTileCount() const { return sizes_.maxTiles.x * sizes_.maxTiles.y; }
     uint32_t firstOfBlocks() const { return firstSplit() + splitCapacity_ * gpu::SLICES; }
+    uint32_t pageCount() const
+    {
+        return uint32_t(entries_.size / (gpu::PAGE_WORDS * sizeof(uint32_t)));
+    }
     VkDeviceSize tileWorkBytes(uint32_t heights) const;
     Lists createLists(uint32_t type) const;
     uint32_t listGroups(uint32_t lists) const noexcept;

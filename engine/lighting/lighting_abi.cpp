@@ -263,6 +263,6 @@ CndResult cndGetLightingStats(CndLightingView view, uint32_t frameSlot, CndLight
         return CND_ERROR_INVALID_ARGUMENT;
     const CndResult result = view->impl.stats(frameSlot, *stats);
     if (result == CND_SUCCESS)
-        view->impl.reportProblems(*stats);
+        view->impl.reportProblems(frameSlot, *stats);
     return result;
 }

@@ -2,6 +2,7 @@
 #include "view/view.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <cstring>
 #include <string>
 #include <utility>
@@ -203,27 +204,53 @@ CndResult View::stats(uint32_t slot, CndLightingStats& out) const noexcept
     return timer_.read(slot, out.kernelTimes, out.kernelTimeCount);
 }
 
-void View::reportProblems(const CndLightingStats& stats) const noexcept
+// Names what the lists of clusters found too little of. What shadows need is known if no other list
+// is missing.
+void View::reportUnlisted(uint32_t slot, const CndLightingStats& stats) const noexcept
 {
     const gpu::Device& device = module_.device;
-    if (stats.unlistedClusters && !toldUnlisted_) {
-        toldUnlisted_ = true;
+    const auto* const counted = slots_.read<gpu::LightingCounters>(slot);
+    const bool pagesRanOut = counted && clusters_.ranOut(counted->pageCursor);
+    const auto tell = [&](const char* budget, VkDeviceSize bytes, const char* enough) {
         device.say(CND_MESSAGE_WARNING,
                    "cndGetLightingStats: %u clusters have no list, because "
-                   "CndLightingViewDesc::listBudget, %llu bytes, was used up or the list too long "
-                   "for the device%s: they are shaded by walking the light tree, slower",
-                   stats.unlistedClusters, (unsigned long long)desc_.listBudget,
-                   stats.missingShadowSlots ? ", or shadowBudget was used up" : "");
+                   "CndLightingViewDesc::%s, %llu bytes, was used up%s: they are shaded by walking "
+                   "the light tree, slower",
+                   stats.unlistedClusters, budget, (unsigned long long)bytes, enough);
+    };
+    if (pagesRanOut && !std::exchange(told_.pages, true))
+        tell("listBudget", desc_.listBudget, "");
+    if (stats.missingShadowSlots && !std::exchange(told_.slots, true)) {
+        const VkDeviceSize needed = (VkDeviceSize(stats.shadowSlots) + stats.missingShadowSlots) *
+                                    gpu::SLOT_WORDS * sizeof(uint32_t);
+        char enough[80] = "";
+        if (!pagesRanOut)
+            std::snprintf(
+                enough, sizeof enough, ", and %llu would do%s", (unsigned long long)needed,
+                needed > device.limits.maxStorageBufferRange ? ", more than maxStorageBufferRange"
+                                                             : "");
+        tell("shadowBudget", desc_.shadowBudget, enough);
     }
-    if (stats.unfinishedPairs && !toldUnfinished_) {
-        toldUnfinished_ = true;
+    if (!pagesRanOut && !stats.missingShadowSlots && !std::exchange(told_.length, true))
+        device.say(CND_MESSAGE_WARNING,
+                   "cndGetLightingStats: %u clusters have no list, because it would be too long "
+                   "for the device: they are shaded by walking the light tree, slower",
+                   stats.unlistedClusters);
+}
+
+void View::reportProblems(uint32_t slot, const CndLightingStats& stats) const noexcept
+{
+    const gpu::Device& device = module_.device;
+    if (stats.unlistedClusters)
+        reportUnlisted(slot, stats);
+    if (stats.unfinishedPairs && !std::exchange(told_.unfinished, true)) {
         device.say(CND_MESSAGE_WARNING,
                    "cndGetLightingStats: %u pairs of pixel and light have less shadow than they "
                    "should, because the device ends loops after %u iterations",
                    stats.unfinishedPairs, device.maxLoopIterations);
     }
-    if (stats.rejectedLights && toldRejected_ != module_.lights.number()) {
-        toldRejected_ = module_.lights.number();
+    if (stats.rejectedLights && told_.rejected != module_.lights.number()) {
+        told_.rejected = module_.lights.number();
         device.say(CND_MESSAGE_WARNING,
                    "cndGetLightingStats: %u lights of CndDeviceLights give no light, because a "
                    "field is outside its range or they are more than maxCount",

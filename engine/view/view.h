@@ -27,8 +27,9 @@ public:
                        const CndSurfaceOverlay& overlay); // surface_overlay.cpp
 
     CndResult stats(uint32_t slot, CndLightingStats& stats) const noexcept;
-    // Sends the host a message, once, for each statistic that shows a problem.
-    void reportProblems(const CndLightingStats& stats) const noexcept;
+    // Sends the host a message, once, for each statistic of a slot that shows a problem. `stats`:
+    // what stats() has just returned.
+    void reportProblems(uint32_t slot, const CndLightingStats& stats) const noexcept;
     VkDescriptorSet forwardSet(uint32_t slot) const; // throws gpu::Failure if there is none
     // Makes room for a set of lights before the module takes it. Throws gpu::Failure if that fails.
     void makeRoom(uint32_t lightCapacity, LightTypeCounts types);
@@ -54,6 +55,7 @@ private:
 
     gpu::ShadowCounters shadowCounters(const gpu::LightingCounters* counted) const noexcept;
     void makeRoomForShapes(VkDeviceSize lights, VkDeviceSize polygons);
+    void reportUnlisted(uint32_t slot, const CndLightingStats& stats) const noexcept;
 
     // record.cpp
     bool keepsLists(const FramePlan& plan);
@@ -113,10 +115,13 @@ private:
     std::optional<Influence> influence_; // CndLightingDesc::influenceByError
     std::optional<Shadows> shadows_;     // CndLightingDesc::shadows
     ListsKey lists_;                     // what the lists of the last frame were made for
-    // What reportProblems() has already sent a message about: clusters without lists, pairs whose
-    // occluders were not all found, and rejected lights of the light set of this number.
-    mutable bool toldUnlisted_ = false, toldUnfinished_ = false;
-    mutable uint64_t toldRejected_ = 0;
+    // What reportProblems() has already sent a message about.
+    struct Told {
+        bool pages = false, slots = false, length = false; // why clusters have no list
+        bool unfinished = false; // pairs whose occluders were not all found
+        uint64_t rejected = 0;   // lights of the light set of this number
+    };
+    mutable Told told_;
 };
 
 } // namespace candelabra::lighting

@@ -35,7 +35,9 @@ TEST_F(LightingTest, ListsWithoutRoomAndRejectedLightsAreToldOnce)
     ASSERT_TRUE(lighting.value().setLights(lights, {0, 0, 0}));
     log.expectNone();
     draw();
-    log.expect(CND_MESSAGE_WARNING, "clusters have no list");
+    log.expect(CND_MESSAGE_WARNING,
+               "clusters have no list, because CndLightingViewDesc::listBudget, "
+               "1 bytes, was used up: they are");
     draw();
     log.expectNone();
     for (int i = 0; i < 2; ++i) { // once for each set
@@ -46,6 +48,54 @@ TEST_F(LightingTest, ListsWithoutRoomAndRejectedLightsAreToldOnce)
         draw();
         log.expectNone();
     }
+}
+
+TEST_F(LightingTest, TheBudgetThatRanOutIsTold)
+{
+    const CpuGBuffer g = randomGBuffer(48, 32, 12);
+    HostLog log;
+    auto lighting = Lighting::create(
+        log.desc(deviceDesc()),
+        {.framesInFlight = 1, .lightTypes = 1u << CND_LIGHT_SPHERE, .shadows = {.points = 32}});
+    ASSERT_TRUE(lighting) << lighting.error().message;
+    const float triangle[] = {0, 0, -1, 1, 0, -1, 0, 1, -1};
+    auto mesh = lighting.value().addOccluderMesh(
+        {.positions = triangle, .vertexCount = 3, .triangleCount = 1});
+    ASSERT_TRUE(mesh) << mesh.error().message;
+    ASSERT_TRUE(lighting.value().addOccluder(
+        {.mesh = mesh.value(), .worldFromMesh = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}}));
+    ASSERT_TRUE(lighting.value().setLights(randomSpheres(g, 200, 12), {0, 0, 0}));
+    const Images images = uploadImages(g);
+    log.messages.clear();
+    const auto statsWith = [&](VkDeviceSize listBudget, VkDeviceSize shadowBudget) {
+        auto view = lighting.value().createView({.maxWidth = 48,
+                                                 .maxHeight = 32,
+                                                 .listBudget = listBudget,
+                                                 .shadowBudget = shadowBudget});
+        EXPECT_TRUE(view) << view.error().message;
+        context().submitAndWait([&](VkCommandBuffer cmd) {
+            EXPECT_TRUE(
+                view.value().record(cmd, frameOf(g, images, {.specular = CND_SPECULAR_CONIC})));
+        });
+        return view.value().stats(0).value().value();
+    };
+    constexpr VkDeviceSize slot = 256, few = 16 * slot;
+    const CndLightingStats short_ = statsWith(0, few);
+    const VkDeviceSize enough = (short_.shadowSlots + short_.missingShadowSlots) * slot;
+    log.expect(CND_MESSAGE_WARNING,
+               "no list, because CndLightingViewDesc::shadowBudget, 4096 bytes, was used up, and " +
+                   std::to_string(enough) + " would do: they are");
+    const CndLightingStats whole = statsWith(0, enough);
+    log.expectNone();
+    EXPECT_EQ(whole.shadowSlots * slot, enough);
+    // Lists that were not made would take more slots.
+    const CndLightingStats both = statsWith(6144, slot);
+    EXPECT_LT(both.shadowSlots + both.missingShadowSlots, whole.shadowSlots);
+    ASSERT_EQ(log.messages.size(), 2u);
+    EXPECT_NE(log.messages[0].sentence.find("listBudget, 6144 bytes, was used up: "),
+              std::string::npos);
+    EXPECT_NE(log.messages[1].sentence.find("shadowBudget, 256 bytes, was used up: "),
+              std::string::npos);
 }
 
 } // namespace candelabra::test

@@ -341,8 +341,9 @@ typedef struct CndLightingStats {
     uint32_t diffuseTileCount;
     uint32_t listEntries;   // sum of the lengths of all lists
     uint32_t maxListLength; // length of the longest list of one cluster and light type
-    // Clusters without a list, summed over light types. Their list exceeds the list budget, or has
-    // more lights than a loop of the device may take. Their pixels walk the light tree instead.
+    // Clusters without a list, summed over light types. Their list exceeds the list budget or the
+    // shadow budget, or has more lights than a loop of the device may take, as a message says.
+    // Their pixels walk the light tree instead.
     uint32_t unlistedClusters;
     // With CND_INFLUENCE_BY_ERROR: illuminance (lx) at which lights are cut; 0: no light is cut.
     float cutBelow;
@@ -363,7 +364,8 @@ typedef struct CndLightingStats {
     // Each pair of a cluster and a light takes a slot, 256 bytes of
     // CndLightingViewDesc::shadowBudget. shadowSlots: the most that one light type took.
     // missingShadowSlots: how many more pairs, of all types, found none; their clusters count in
-    // unlistedClusters. Brute force and distant lights do not count.
+    // unlistedClusters. A budget for the sum of both is enough, unless lists exceed listBudget.
+    // Brute force and distant lights do not count.
     uint32_t shadowSlots, missingShadowSlots;
     // On devices that limit loops: pairs whose search for occluders was cut off. They have fewer
     // shadows than they should.

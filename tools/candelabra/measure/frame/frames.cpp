@@ -187,8 +187,7 @@ std::string shadowText(const CndLightingStats& stats, PixelSize size)
         perPixel(stats.partlyLitPairs), perPixel(stats.darkPairs),
         counted(stats.shadowSlots, "slot"));
     if (stats.missingShadowSlots)
-        out += fmt::format("; {} missing, whose pixels take longer: raise "
-                           "CndLightingViewDesc::shadowBudget",
+        out += fmt::format("; {} missing, whose pixels take longer", // a message says more
                            counted(stats.missingShadowSlots, "slot"));
     if (stats.unfinishedPairs)
         out += fmt::format("; {} searches for occluders cut off, because the device limits loops",
