@@ -8,9 +8,9 @@
 namespace candelabra::gpu
 {
 
-std::string idText(uint64_t id)
+std::string noneHasId(const char* kind, uint64_t id)
 {
-    return std::to_string(uint32_t(id)) + " (generation " + std::to_string(id >> 32) + ")";
+    return std::string("no ") + kind + " has the id " + std::to_string(id);
 }
 
 void IdTable::reserveAll(size_t count)
@@ -31,7 +31,7 @@ void IdTable::check(const char* call, const char* kind, std::span<const uint64_t
 {
     for (const uint64_t id : ids)
         if (!has(id))
-            failArgument(std::string(call) + ": no " + kind + " has the id " + idText(id));
+            failArgument(std::string(call) + ": " + noneHasId(kind, id));
     if (std::ranges::adjacent_find(ids, std::greater_equal<>()) == ids.end())
         return; // each is larger than the one before
     seen_.resize(places_.size());
@@ -41,7 +41,8 @@ void IdTable::check(const char* call, const char* kind, std::span<const uint64_t
     for (const uint64_t id : ids.first(different))
         seen_[slotOf(id)] = false;
     if (different < ids.size())
-        failArgument(std::string(call) + ": the id " + idText(ids[different]) + " is given twice");
+        failArgument(std::string(call) + ": the id " + std::to_string(ids[different]) +
+                     " is given twice");
 }
 
 void IdTable::setAll(uint32_t count) noexcept

@@ -21,8 +21,8 @@ void reserveMore(std::vector<T>& v, size_t more)
         v.reserve(std::max(v.size() + more, v.capacity() + v.capacity() / 2));
 }
 
-// Returns an id as messages name it.
-std::string idText(uint64_t id);
+// The sentence about an id, named as the host passed it, that no `kind` has, such as "light".
+std::string noneHasId(const char* kind, uint64_t id);
 
 class IdTable
 {

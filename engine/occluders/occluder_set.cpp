@@ -134,9 +134,9 @@ void OccluderSet::removeMeshes(std::span<const OccluderMeshId> ids)
 void OccluderSet::check(const char* call, std::span<const OccluderInstance> instances) const
 {
     for (size_t i = 0; i < instances.size(); ++i) {
-        const std::string why = meshes_.has(instances[i].mesh) ? whyOccluderInvalid(instances[i])
-                                                               : "no occluder mesh has the id " +
-                                                                     gpu::idText(instances[i].mesh);
+        const std::string why = meshes_.has(instances[i].mesh)
+                                    ? whyOccluderInvalid(instances[i])
+                                    : gpu::noneHasId("occluder mesh", instances[i].mesh);
         if (!why.empty())
             gpu::failArgument(std::string(call) + ": occluder " + std::to_string(i) + ": " + why);
     }

@@ -364,7 +364,7 @@ TEST_F(LightUpdates, ThatAreWrongChangeNothing)
     remove({added[1], 7});
     const std::vector<glm::vec4> before = frame();
     std::vector<CndLight> with = randomSpheres(g_, 10, 14);
-    const auto refused = [&](const char* named, std::vector<CndLightId> ids) {
+    const auto refused = [&](const std::string& named, std::vector<CndLightId> ids) {
         CndError error{};
         EXPECT_EQ(cndUpdateLights(lighting_, uint32_t(ids.size()), ids.data(), with.data(), &error),
                   CND_ERROR_INVALID_ARGUMENT);
@@ -374,13 +374,12 @@ TEST_F(LightUpdates, ThatAreWrongChangeNothing)
                   CND_ERROR_INVALID_ARGUMENT);
         EXPECT_NE(std::string(error.message).find(named), std::string::npos) << error.message;
     };
-    refused("no light of the set has the id 53 (generation 0)", {0, 53});
-    refused("no light of the set has the id 4294967295 (generation 4294967295)", {UINT64_MAX});
-    refused("no light of the set has the id 7 (generation 0)", {7});
-    refused("no light of the set has the id 51", {added[1]});
-    refused("no light of the set has the id 50 (generation 0)", {50}); // perhaps the id of an older
-                                                                       // set
-    refused("the id 3 (generation 0) is given twice", {3, added[0], 3});
+    refused("no light of the set has the id 53", {0, 53});
+    refused("no light of the set has the id 18446744073709551615", {UINT64_MAX});
+    refused("no light of the set has the id 7", {7});
+    refused("no light of the set has the id " + std::to_string(added[1]), {added[1]});
+    refused("no light of the set has the id 50", {50}); // perhaps the id of an older set
+    refused("the id 3 is given twice", {3, added[0], 3});
     with[9].radius = -1;
     CndError error{};
     std::vector<CndLightId> ids(10);
@@ -401,7 +400,8 @@ TEST_F(LightUpdates, ThatAreWrongChangeNothing)
     EXPECT_EQ(maxRelativeDifference(frame(), before), 0);
     EXPECT_LE(copyCounter.copied, 1024u);
     set(lights);
-    refused("no light of the set has the id 50", {added[0]}); // an id of the previous set
+    // An id of the previous set.
+    refused("no light of the set has the id " + std::to_string(added[0]), {added[0]});
 }
 
 } // namespace

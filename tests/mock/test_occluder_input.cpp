@@ -139,7 +139,7 @@ TEST_F(OccluderInput, MeshesAreChecked)
     refused(lighting_.replaceOccluderPositions(instance_.mesh, broken),
             replace + "positions[1][1] is nan, must be finite and within 1e15");
     refused(lighting_.replaceOccluderPositions(7, oneTriangle),
-            replace + "no occluder mesh has the id 7 (generation 0)");
+            replace + "no occluder mesh has the id 7");
     refused(lighting_.replaceOccluderPositions(instance_.mesh, oneTriangle, 4),
             replace + "stride is 4, must be 0 or a multiple of 4 that is at least 12");
 }
@@ -162,7 +162,7 @@ TEST_F(OccluderInput, InstancesAreChecked)
 {
     CndOccluderInstance instance = instance_;
     instance.mesh = 5;
-    refusedInstance(instance, "no occluder mesh has the id 5 (generation 0)");
+    refusedInstance(instance, "no occluder mesh has the id 5");
     instance = instance_;
     instance.surfaceError = -1;
     refusedInstance(instance, "surfaceError is -1.000000, must be finite and >= 0");
@@ -192,11 +192,10 @@ TEST_F(OccluderInput, IdsAreChecked)
 {
     const CndOccluderId twice[] = {id_, id_}, unknown[] = {id_, 3};
     const CndOccluderInstance instances[] = {instance_, instance_};
-    const std::string given = "the id 0 (generation 1) is given twice";
+    const std::string given = "the id 4294967296 is given twice";
     refused(lighting_.removeOccluders(twice), "cndRemoveOccluders: " + given);
     refused(lighting_.updateOccluders(twice, instances), "cndUpdateOccluders: " + given);
-    refused(lighting_.removeOccluders(unknown),
-            "cndRemoveOccluders: no occluder has the id 3 (generation 0)");
+    refused(lighting_.removeOccluders(unknown), "cndRemoveOccluders: no occluder has the id 3");
     const CndOccluderMeshId twoMeshes[] = {instance_.mesh, instance_.mesh};
     refused(lighting_.removeOccluderMeshes(twoMeshes), "cndRemoveOccluderMeshes: " + given);
     ASSERT_TRUE(lighting_.removeOccluders({&id_, 1}));
