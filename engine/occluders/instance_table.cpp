@@ -47,7 +47,6 @@ void InstanceTable::reserve(size_t removed, size_t added)
     sortedRecords_.reserve(std::max(room, records_.capacity()));
     coordinates_.reserve(room);
     leaves_.reserve(room);
-    nodes_.reserve(2 * room);
     parents_.reserve(2 * room);
     if (!most)
         return;
@@ -177,14 +176,15 @@ void InstanceTable::fitAncestors(uint32_t place) noexcept
 {
     if (!treeIsMade_)
         return;
+    const std::span nodes = meshes_.instanceNodes();
     for (uint32_t node = leaves_[place];; node = parents_[node]) {
-        const Box before = boxOf(nodes_[node]);
-        const Box box = fittedBox(nodes_, node, [&](uint32_t i) { return boxAt(i); });
+        const Box before = boxOf(nodes[node]);
+        const Box box = fittedBox(nodes, node, [&](uint32_t i) { return boxAt(i); });
         if (box == before)
             break;
-        nodes_[node].low = box.low;
-        nodes_[node].high = box.high;
-        meshes_.writeInstanceNodes(node, {&nodes_[node], 1});
+        nodes[node].low = box.low;
+        nodes[node].high = box.high;
+        meshes_.markInstanceNodes(node, 1);
         surface_ += halfSurface(box) - halfSurface(before);
         if (node == 0)
             break;
@@ -224,15 +224,14 @@ void InstanceTable::makeTree() noexcept
     items_.resize(places());
     for (uint32_t place = 0; place < places(); ++place)
         items_[place] = {boxAt(place), place};
-    buildTree(items_, gpu::OCCLUDER_LEAF_INSTANCES, nodes_);
+    buildTree(items_, gpu::OCCLUDER_LEAF_INSTANCES, meshes_.instanceNodes());
     sortByTree();
     findParents();
     surface_ = 0;
-    for (const gpu::OccluderNode& node : nodes_)
+    for (const gpu::OccluderNode& node : nodes())
         surface_ += halfSurface(boxOf(node));
     surfaceAtFirst_ = surface_;
     recordBuffer_.markChanged(0, records_.size() * occluderRecordBytes);
-    meshes_.writeInstanceNodes(0, nodes_);
     treeIsMade_ = true;
 }
 
@@ -267,14 +266,15 @@ void InstanceTable::sortByTree() noexcept
 
 void InstanceTable::findParents() noexcept
 {
-    parents_.assign(nodes_.size(), 0);
+    const std::span tree = nodes();
+    parents_.assign(tree.size(), 0);
     leaves_.resize(places());
-    for (uint32_t node = 0; node < nodes_.size(); ++node) {
-        if (nodes_[node].leaf)
-            for (uint32_t place = leafFirst(nodes_[node]); place < leafEnd(nodes_[node]); ++place)
+    for (uint32_t node = 0; node < tree.size(); ++node) {
+        if (tree[node].leaf)
+            for (uint32_t place = leafFirst(tree[node]); place < leafEnd(tree[node]); ++place)
                 leaves_[place] = node;
         else
-            parents_[node + 1] = parents_[nodes_[node + 1].skip] = node;
+            parents_[node + 1] = parents_[tree[node + 1].skip] = node;
     }
 }
 

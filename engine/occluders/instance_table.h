@@ -46,12 +46,16 @@ public:
 
     bool isChanged() const { return !treeIsMade_ || recordBuffer_.isChanged(); }
     // Makes the tree anew if it needs that, and records the upload of what has changed but for the
-    // nodes, which MeshTable uploads.
+    // nodes, which MeshTable keeps and uploads.
     void recordUpload(const gpu::Frame& frame, uint64_t recording) noexcept;
 
     // The following hold after recordUpload().
     const glm::dvec3& origin() const { return origin_; } // of the tree, in the world
-    std::span<const gpu::OccluderNode> nodes() const { return nodes_; }
+    std::span<const gpu::OccluderNode> nodes() const
+    {
+        const std::span all = meshes_.instanceNodes();
+        return all.first(places() ? all[0].skip : 0);
+    }
     std::span<const gpu::OccluderRecord> records() const { return records_; }
     const gpu::Buffer& recordBuffer() const { return recordBuffer_.buffer(); }
 
@@ -82,7 +86,6 @@ private:
 
     bool treeIsMade_ = true; // otherwise no place is without an instance
     glm::dvec3 origin_{0};
-    std::vector<gpu::OccluderNode> nodes_;
     std::vector<uint32_t> parents_;           // by node; the root's is itself
     std::vector<uint32_t> leaves_;            // by place
     double surface_ = 0, surfaceAtFirst_ = 0; // of all nodes, now and when the tree was made

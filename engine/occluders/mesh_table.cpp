@@ -121,7 +121,8 @@ MeshTable::Built MeshTable::build(const OccluderMesh& mesh)
     for (uint32_t i = 0; i < mesh.triangleCount; ++i)
         items[i] = {boxOf(positions.triangle(cornersOf(i))), i};
     Built out;
-    buildTree(items, gpu::OCCLUDER_LEAF_TRIANGLES, out.nodes);
+    out.nodes.resize(2 * items.size() - 1);
+    out.nodes.resize(buildTree(items, gpu::OCCLUDER_LEAF_TRIANGLES, out.nodes));
     out.triangles.reserve(items.size());
     out.mesh.corners.reserve(items.size());
     for (const TreeItem& item : items) {
@@ -289,11 +290,6 @@ void MeshTable::remove(std::span<const OccluderMeshId> ids)
         (*this)[id] = {};
         ids_.remove(gpu::IdTable::slotOf(id));
     }
-}
-
-void MeshTable::markInstanceNodes() noexcept
-{
-    nodes_.changed(instanceNodes_.first, instanceNodes_.used);
 }
 
 void MeshTable::recordUpload(const gpu::Frame& frame, uint64_t recording) noexcept

@@ -44,13 +44,17 @@ public:
     // move them, all of them are to be written anew. Throws gpu::Failure and then leaves everything
     // as it was.
     void reserveInstanceNodes(uint32_t count);
-    // The next upload takes all nodes of this tree, which are written before.
-    void markInstanceNodes() noexcept;
-    // Writes nodes of this tree, from its node `first` on. There must be room for them.
-    void writeInstanceNodes(uint32_t first, std::span<const gpu::OccluderNode> nodes) noexcept
+    // The nodes for which there is room, until the next call that makes room.
+    std::span<gpu::OccluderNode> instanceNodes()
     {
-        nodes_.write(instanceNodes_.first + first, nodes);
+        return std::span(nodes_.contents).subspan(instanceNodes_.first, instanceNodes_.used);
     }
+    // The next upload takes so many of them, or all, which are written before.
+    void markInstanceNodes(uint32_t first, uint32_t count) noexcept
+    {
+        nodes_.changed(instanceNodes_.first + first, count);
+    }
+    void markInstanceNodes() noexcept { markInstanceNodes(0, instanceNodes_.used); }
     uint32_t firstInstanceNode() const { return instanceNodes_.first; }
 
     bool has(OccluderMeshId id) const { return ids_.has(id); }

@@ -129,7 +129,8 @@ double halfSurface(const Box& box)
     return size.x * size.y + size.y * size.z + size.z * size.x;
 }
 
-void buildTree(std::span<TreeItem> items, uint32_t leafItems, std::vector<gpu::OccluderNode>& nodes)
+uint32_t buildTree(std::span<TreeItem> items, uint32_t leafItems,
+                   std::span<gpu::OccluderNode> nodes)
 {
     struct Range {
         size_t first, count;
@@ -137,24 +138,25 @@ void buildTree(std::span<TreeItem> items, uint32_t leafItems, std::vector<gpu::O
     };
     std::array<Range, deepest + 1> waiting; // one second child per level, and the node itself
     size_t waits = 0;
-    nodes.clear();
+    uint32_t count = 0;
     if (!items.empty())
         waiting[waits++] = {0, items.size(), 0};
     while (waits) {
         const Range range = waiting[--waits];
         const size_t below =
             divide(items.subspan(range.first, range.count), leafItems, range.depth);
-        nodes.push_back({});
+        gpu::OccluderNode& made = nodes[count++] = {};
         if (below) {
             waiting[waits++] = {range.first + below, range.count - below, range.depth + 1};
             waiting[waits++] = {range.first, below, range.depth + 1};
         } else {
-            nodes.back().leaf = uint32_t(range.first << gpu::OCCLUDER_LEAF_SHIFT | range.count);
+            made.leaf = uint32_t(range.first << gpu::OCCLUDER_LEAF_SHIFT | range.count);
         }
     }
-    for (uint32_t node = uint32_t(nodes.size()); node-- > 0;)
+    for (uint32_t node = count; node-- > 0;)
         nodes[node].skip = nodes[node].leaf ? node + 1 : nodes[nodes[node + 1].skip].skip;
-    fitTree(nodes, [&](uint32_t i) -> const Box& { return items[i].box; });
+    fitTree(nodes.first(count), [&](uint32_t i) -> const Box& { return items[i].box; });
+    return count;
 }
 
 } // namespace candelabra::lighting

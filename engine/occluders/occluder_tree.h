@@ -40,11 +40,11 @@ struct TreeItem {
 };
 
 // Sorts `items` so that each leaf has consecutive ones, at most `leafItems`, and writes the nodes
-// of their tree, at most 2 * items.size() - 1. It allocates nothing if `nodes` has that capacity.
-// The tree is binary and follows the surface area heuristic with 16 bins along each axis. It is at
-// most 80 levels deep whatever the items are.
-void buildTree(std::span<TreeItem> items, uint32_t leafItems,
-               std::vector<gpu::OccluderNode>& nodes);
+// of their tree. Returns how many these are, at most 2 * items.size() - 1. The tree is binary and
+// follows the surface area heuristic with 16 bins along each axis. It is at most 80 levels deep
+// whatever the items are.
+uint32_t buildTree(std::span<TreeItem> items, uint32_t leafItems,
+                   std::span<gpu::OccluderNode> nodes);
 
 inline uint32_t leafFirst(const gpu::OccluderNode& node)
 {

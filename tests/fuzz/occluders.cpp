@@ -450,10 +450,6 @@ private:
         const Segment segment{glm::dvec3(-30, 1, 2), glm::dvec3(30, 2, 1)};
         for (const gpu::OccluderNode& node : set.instances().nodes())
             require(std::isfinite(lighting::halfSurface(lighting::boxOf(node))), "a box");
-        const auto uploaded = set.meshes().allNodes().subspan(set.meshes().firstInstanceNode());
-        require(std::ranges::equal(std::as_bytes(uploaded.first(set.instances().nodes().size())),
-                                   std::as_bytes(set.instances().nodes())),
-                "the nodes of instances");
         walkTree(set.instances().nodes(), segment, [&](uint32_t place) {
             const gpu::OccluderRecord& r = set.instances().records()[place];
             if (r.flags)
