@@ -7,6 +7,7 @@
 #include <cmath>
 #include <ctime>
 #include <mutex>
+#include <numeric>
 #include <set>
 #include <thread>
 
@@ -123,9 +124,8 @@ private:
     reference::EmitterPoints emitter_;
 };
 
-// The luminance of a pixel.
+// The luminance of a pixel; 0 if it shows no surface.
 struct PixelValues {
-    bool surface = false; // it shows one
     double truth = 0;
     std::array<double, rivalCount> rivals{};
 };
@@ -145,7 +145,7 @@ PixelValues pixelValues(const reference::Scene& scene, const reference::Occluder
                           .relative = tolerance,
                           .seed = seed},
                          hit.surface, material, truth);
-    PixelValues out{.surface = true, .truth = luminanceOf(truth)};
+    PixelValues out{.truth = luminanceOf(truth)};
     out.rivals.fill(luminanceOf(surface.emission));
     Random random(seed);
     for (size_t i = 0; i < scene.lights.size(); ++i) {
@@ -171,18 +171,18 @@ std::vector<uint32_t> randomPixels(PixelSize size, uint32_t count)
     return {chosen.begin(), chosen.end()};
 }
 
-VisibilityError errorOf(const char* name, const std::vector<double>& values,
-                        const std::vector<double>& truths)
+// Errors relative to the values of `whole`, where these are positive.
+ErrorSpread errorsOver(const std::vector<double>& whole, const std::vector<double>& values,
+                       const std::vector<double>& truths)
 {
-    VisibilityError out{.name = name};
     std::vector<double> errors;
-    for (size_t i = 0; i < truths.size(); ++i) {
-        errors.push_back(std::abs(values[i] - truths[i]) / truths[i]);
-        out.mean += errors.back() / double(truths.size());
-    }
-    if (!errors.empty())
-        out.spread = spreadOf(errors);
-    return out;
+    for (size_t i = 0; i < truths.size(); ++i)
+        if (whole[i] > 0)
+            errors.push_back(std::abs(values[i] - truths[i]) / whole[i]);
+    if (errors.empty())
+        return {};
+    return {.mean = std::accumulate(errors.begin(), errors.end(), 0.0) / double(errors.size()),
+            .spread = spreadOf(errors)};
 }
 
 } // namespace
@@ -245,22 +245,25 @@ VisibilityErrors measureVisibilityErrors(const VulkanContext& context, Renderer&
     }
     VisibilityErrors out;
     std::vector<double> truths, ours, rivals[rivalCount];
+    const std::vector<double>& unshadowed = rivals[0];
     for (size_t i = 0; i < pixels.size(); ++i) {
-        const float* p = &image.pixels[size_t{3} * pixels[i]];
-        const double drawn = luminanceOf({p[0], p[1], p[2]});
-        if (!(found[i].truth > 0)) {
-            out.leaks += found[i].surface && drawn > 0;
+        if (!(found[i].rivals[0] > 0))
             continue;
-        }
+        const float* p = &image.pixels[size_t{3} * pixels[i]];
         truths.push_back(found[i].truth);
-        ours.push_back(drawn);
+        ours.push_back(luminanceOf({p[0], p[1], p[2]}));
         for (size_t rival = 0; rival < rivalCount; ++rival)
             rivals[rival].push_back(found[i].rivals[rival]);
+        out.leaks += !(truths.back() > 0) && ours.back() > 0;
     }
     out.compared = truths.size();
-    out.rows.push_back(errorOf("this engine", ours, truths));
+    const auto add = [&](const char* name, const std::vector<double>& values) {
+        out.rows.push_back(
+            {name, errorsOver(truths, values, truths), errorsOver(unshadowed, values, truths)});
+    };
+    add("this engine", ours);
     for (size_t rival = 0; rival < rivalCount; ++rival)
-        out.rows.push_back(errorOf(rivalNames[rival], rivals[rival], truths));
+        add(rivalNames[rival], rivals[rival]);
     return out;
 }
 
@@ -277,12 +280,19 @@ std::string visibilityText(const VisibilityCost& cost, const VisibilityErrors& e
                        threeDigits(1e3 * cost.cpuMs / asked));
     out += fmt::format("the frame takes {:.3f} [{:.3f}, {:.3f}] times as long as without shadows\n",
                        cost.ratio.median, cost.ratio.low, cost.ratio.high);
-    Table table({"visible share of a light", "mean error", "p95", "p99"});
+    Table table({"visible share of a light", "mean error", "p95", "p99", "of the pixel: mean",
+                 "p95", "p99"});
     const auto percent = [](double x) { return fmt::format("{:.3f}%", 100 * x); };
-    for (const VisibilityError& e : errors.rows)
-        table.add({e.name, percent(e.mean), percent(e.spread.p95), percent(e.spread.p99)});
-    table.note(fmt::format("Errors of the luminance of {}, relative to the truth. {} that should "
-                           "be black {} light.",
+    for (const VisibilityError& e : errors.rows) {
+        std::vector<std::string> cells{e.name};
+        for (const ErrorSpread& error : {e.ofUnshadowed, e.ofPixel})
+            for (const double x : {error.mean, error.spread.p95, error.spread.p99})
+                cells.push_back(percent(x));
+        table.add(cells);
+    }
+    table.note(fmt::format("Errors of the luminance of {}, relative to the pixel without shadows, "
+                           "and to the pixel itself where it has light. {} that should be black "
+                           "{} light.",
                            counted(errors.compared, "random pixel"), counted(errors.leaks, "pixel"),
                            errors.leaks == 1 ? "has" : "have"));
     return out + table.text();
@@ -292,12 +302,16 @@ Json visibilityJson(const VisibilityCost& cost, const VisibilityErrors& errors)
 {
     const CndLightingStats& s = cost.stats;
     const double asked = double(std::max<uint64_t>(s.askedPairs, 1));
+    const auto percent = [](const ErrorSpread& e) {
+        return Json{{"meanPercent", 100 * e.mean},
+                    {"p95Percent", 100 * e.spread.p95},
+                    {"p99Percent", 100 * e.spread.p99}};
+    };
     Json list = Json::array();
     for (const VisibilityError& e : errors.rows)
         list.push_back({{"name", e.name},
-                        {"meanPercent", 100 * e.mean},
-                        {"p95Percent", 100 * e.spread.p95},
-                        {"p99Percent", 100 * e.spread.p99}});
+                        {"ofUnshadowed", percent(e.ofUnshadowed)},
+                        {"ofPixel", percent(e.ofPixel)}});
     return {{"pairs",
              {{"asked", s.askedPairs},
               {"lit", s.askedPairs - s.partlyLitPairs - s.darkPairs},

@@ -21,17 +21,22 @@ struct VisibilitySettings {
     double tolerance = 1e-4; // reference::TruthOptions::relative
 };
 
-// Errors of the luminance of pixels, relative to their truth.
-struct VisibilityError {
-    std::string name;
+struct ErrorSpread {
     double mean = 0;
     Spread spread;
 };
 
+// Errors of the luminance of pixels.
+struct VisibilityError {
+    std::string name;
+    ErrorSpread ofPixel;      // relative to the truth, where it has light
+    ErrorSpread ofUnshadowed; // relative to the truth without shadows, also in full shadow
+};
+
 struct VisibilityErrors {
     std::vector<VisibilityError> rows; // of this engine, without shadows, and of rays
-    size_t compared = 0;               // pixels with light
-    size_t leaks = 0; // pixels without light, by the truth, that the engine gives light
+    size_t compared = 0;               // pixels that lights reach, but for shadows
+    size_t leaks = 0; // of them, pixels without light, by the truth, that the engine gives light
 };
 
 struct VisibilityCost {
