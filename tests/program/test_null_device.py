@@ -81,6 +81,9 @@ with tempfile.TemporaryDirectory() as folder:
             "--kernels does not choose the kernels")
     require(all(p["vectorRegisters"] and p["instructions"] and p["others"] for p in data["pipelines"]),
             "a measure of RADV was not found")
+    of_shadows = run(program, "bench", "pipelines", "--kernels", "ask_pairs", "--shadows", "32", "--json", "-")
+    require(of_shadows.returncode == 0 and json.loads(of_shadows.stdout)["shadows"] == "32" and
+            len(json.loads(of_shadows.stdout)["pipelines"]) == 1, f"--shadows: {of_shadows}")
     table = run(program, "bench", "pipelines", *chosen)
     require("tone_map, aces" in table.stdout, table.stdout)
 

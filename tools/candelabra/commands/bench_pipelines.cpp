@@ -16,7 +16,7 @@ namespace
 {
 
 struct PipelineArguments {
-    std::string device, kernels, types, methods, json;
+    std::string device, kernels, types, methods, shadows = "off", json;
     bool noClasses = false, others = false;
 };
 
@@ -30,7 +30,9 @@ uint32_t methodsOf(const std::string& text)
 
 int pipelines(const ProgramContext& program, const PipelineArguments& a)
 {
-    PipelineSettings settings{.device = a.device, .diffuseOnlyTiles = !a.noClasses};
+    PipelineSettings settings{.device = a.device,
+                              .diffuseOnlyTiles = !a.noClasses,
+                              .shadows = choose("--shadows", a.shadows, shadowChoices)};
     if (!a.kernels.empty())
         settings.kernels = splitAtCommas(a.kernels);
     if (!a.types.empty()) {
@@ -47,6 +49,7 @@ int pipelines(const ProgramContext& program, const PipelineArguments& a)
     if (!a.json.empty())
         writeJson(a.json, {{"schema", "candelabra bench pipelines 1"},
                            {"provenance", provenance(device, program.commandLine)},
+                           {"shadows", shadowsName(settings.shadows)},
                            {"pipelines", pipelineJson(costs, a.others)}});
     if (a.json != "-")
         writeText("-", fmt::format("{}, {}\n{}", device.name, device.driver, pipelineTable(costs)));
@@ -67,6 +70,10 @@ void addBenchPipelines(CLI::App& bench, Run& run)
               "compile shading kernels for these light types only");
     addOption(*command, "--methods", a->methods, "NAME,...",
               "compile shading kernels for these methods only");
+    addChoice(
+        *command, "--shadows", a->shadows, shadowChoices,
+        "compile the kernels of a module whose lights cast shadows, found for 32 or 64 points "
+        "of each light");
     command->add_flag("--no-classes", a->noClasses,
                       "skip the kernels for tiles without a specular lobe");
     addOption(*command, "--device", a->device, "INDEX|NAME",

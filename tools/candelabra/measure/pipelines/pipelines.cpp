@@ -143,7 +143,8 @@ std::vector<PipelineCost> measurePipelines(const PipelineSettings& settings, Dev
         device.desc(), {.framesInFlight = 1,
                         .specularMethods = settings.methods & gpu::ALL_SPECULAR_METHODS,
                         .diffuseOnlyTiles = VK_TRUE,
-                        .influenceByError = VK_TRUE}));
+                        .influenceByError = VK_TRUE,
+                        .shadows = {.points = settings.shadows}}));
     valueOrThrow(lighting.setLights(lights, {0, 0, 0}));
     valueOrThrow(Environment::create(device.desc(), {.framesInFlight = 1}));
     valueOrThrow(Exposure::create(device.desc(), {.framesInFlight = 1}));

@@ -17,6 +17,7 @@ struct PipelineSettings {
     uint32_t lightTypes = ~0u;        // mask of 1 << CndLightType
     uint32_t methods = ~0u;           // mask of 1 << CndSpecularMethod
     bool diffuseOnlyTiles = true;     // also the kernels for tiles without a specular lobe
+    uint32_t shadows = 0;             // CndShadowDesc::points
 };
 
 // The measures that drivers tell under different names, by one name each. A measure that the driver
