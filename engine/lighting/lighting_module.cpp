@@ -114,7 +114,8 @@ Lighting::Lighting(const CndDeviceDesc& device, const CndLightingDesc& desc)
       kernels_(device_, checkedKernels(hostKernels_, desc_), desc_, gbuffer_.code(),
                readsLightIds(desc_)),
       albedoTable_(device_),
-      forwardLayout_(createForwardLayout(device_, desc_.forwardStages, desc_.shadows.points != 0)),
+      forwardLayout_(
+          createForwardLayout(device_, desc_.forwardStages, forwardShadows(desc_, hostKernels_))),
       lights_(
           device_, recordings_, desc_.lightCapacity,
           [this](uint32_t capacity, const LightTypeCounts& types) { prepare(capacity, types); }),

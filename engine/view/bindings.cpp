@@ -38,7 +38,7 @@ void View::writeBindings(const FramePlan& plan) const
                         .nodes = clusters_.nodes(),
                         .ids = ids_,
                         .directionalAlbedo = albedoTable},
-                       occluderBindings(slot));
+                       forwardShadowBindings(slot));
     if (shadows_)
         shadows_->writeBindings(plan, {.gbuffer = images,
                                        .uniforms = uniforms_,
@@ -84,11 +84,20 @@ void View::writeBruteBindings(const CndLightingFrame& frame,
         gbuffer);
 }
 
-gpu::BindingList View::occluderBindings(uint32_t slot) const
+gpu::BindingList View::forwardShadowBindings(uint32_t slot) const
 {
     gpu::BindingList out;
-    if (shadows_)
-        out.add(shadows_->occluderBindings(slot));
+    if (!shadows_)
+        return out;
+    const auto all = shadows_->occluderBindings(slot);
+    if (!module_.hostKernels.findsPoints()) {
+        out.add(all);
+        return out;
+    }
+    for (gpu::Binding b : std::span(all).last(2)) { // SHADOW_POINTS and SHADOW_VIEW
+        b.binding = b.binding == gpu::SHADOW_VIEW ? gpu::SHADOW_VIEW_OF_RAYS : b.binding;
+        out.add({&b, 1});
+    }
     return out;
 }
 

@@ -10,7 +10,7 @@ namespace
 
 constexpr const char* name = "forward lights";
 
-std::vector<gpu::ReflectedBinding> bindings(bool shadows)
+std::vector<gpu::ReflectedBinding> bindings(ForwardShadows shadows)
 {
     constexpr VkDescriptorType storage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     constexpr VkDescriptorType texels = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
@@ -18,13 +18,16 @@ std::vector<gpu::ReflectedBinding> bindings(bool shadows)
         {gpu::FORWARD_VIEW, storage, 1},   {gpu::FORWARD_CORE, storage, 1},
         {gpu::FORWARD_SHAPES, storage, 1}, {gpu::FORWARD_NODES, storage, 1},
         {gpu::FORWARD_DFG, texels, 1},     {gpu::FORWARD_IDS, storage, 1}};
-    if (shadows) {
+    if (shadows == ForwardShadows::None)
+        return out;
+    const bool rays = shadows == ForwardShadows::OfRays;
+    if (!rays)
         for (const uint32_t binding :
              {gpu::SHADOW_INSTANCES, gpu::SHADOW_NODES, gpu::SHADOW_TRIANGLES})
             out.push_back({binding, storage, 1});
-        out.push_back({gpu::SHADOW_POINTS, texels, 1});
-        out.push_back({gpu::SHADOW_VIEW, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1});
-    }
+    out.push_back({gpu::SHADOW_POINTS, texels, 1});
+    out.push_back({rays ? gpu::SHADOW_VIEW_OF_RAYS : gpu::SHADOW_VIEW,
+                   VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1});
     return out;
 }
 
@@ -45,8 +48,15 @@ constexpr VkPipelineStageFlags ourStages =
 
 } // namespace
 
-gpu::Handle<VkDescriptorSetLayout> createForwardLayout(const gpu::Device& device,
-                                                       VkShaderStageFlags stages, bool shadows)
+ForwardShadows forwardShadows(const CndLightingDesc& desc, const surfaces::HostKernels& kernels)
+{
+    return !desc.shadows.points    ? ForwardShadows::None
+           : kernels.findsPoints() ? ForwardShadows::OfRays
+                                   : ForwardShadows::OfOccluders;
+}
+
+gpu::Handle<VkDescriptorSetLayout>
+createForwardLayout(const gpu::Device& device, VkShaderStageFlags stages, ForwardShadows shadows)
 {
     constexpr VkShaderStageFlags known =
         VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT;
@@ -57,8 +67,8 @@ gpu::Handle<VkDescriptorSetLayout> createForwardLayout(const gpu::Device& device
                   : gpu::Handle<VkDescriptorSetLayout>();
 }
 
-ForwardLights::ForwardLights(const gpu::Device& device, VkShaderStageFlags stages, bool shadows,
-                             uint32_t slots)
+ForwardLights::ForwardLights(const gpu::Device& device, VkShaderStageFlags stages,
+                             ForwardShadows shadows, uint32_t slots)
     : stages_(stages),
       view_(gpu::createBuffer(device, name, sizeof(gpu::ForwardView),
                               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
@@ -68,7 +78,7 @@ ForwardLights::ForwardLights(const gpu::Device& device, VkShaderStageFlags stage
 }
 
 void ForwardLights::write(uint32_t slot, const Inputs& in,
-                          std::span<const gpu::Binding> occluders) const
+                          std::span<const gpu::Binding> shadows) const
 {
     using gpu::Binding;
     sets_.write(slot,
@@ -77,7 +87,7 @@ void ForwardLights::write(uint32_t slot, const Inputs& in,
                  Binding::of(gpu::FORWARD_NODES, in.nodes),
                  Binding::ofTexels(gpu::FORWARD_DFG, in.directionalAlbedo),
                  Binding::of(gpu::FORWARD_IDS, in.ids)},
-                occluders);
+                shadows);
 }
 
 void ForwardLights::recordBegin(const gpu::Frame& frame,

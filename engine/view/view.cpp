@@ -105,7 +105,7 @@ View::View(const Module& module, const CndLightingViewDesc& desc)
     }
     if (module.desc.forwardStages)
         forward_ = ForwardLights(module.device, module.desc.forwardStages,
-                                 module.occluders != nullptr, slots);
+                                 forwardShadows(module.desc, module.hostKernels), slots);
     if (module.desc.influenceByError)
         influence_.emplace(module.device, k.influence, slots,
                            glm::uvec2(desc_.maxWidth, desc_.maxHeight));

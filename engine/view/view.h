@@ -81,8 +81,8 @@ private:
     void writeBruteBindings(const CndLightingFrame& frame,
                             const surfaces::GBufferViews& images) const;
 
-    // Returns the bindings through which kernels walk through occluders; none without shadows.
-    gpu::BindingList occluderBindings(uint32_t slot) const;
+    // Returns what the forward set has for shadows (ForwardShadows).
+    gpu::BindingList forwardShadowBindings(uint32_t slot) const;
 
     // One descriptor set per slot. shadeTiles, shadeUnlisted and countPairs have one per slot and
     // light type.

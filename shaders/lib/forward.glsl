@@ -10,9 +10,10 @@
 // A shader that defines CANDELABRA_SHADOWS before the include finds the shadows of the module's
 // occluders, for which the module needs CndLightingDesc::shadows. Each invocation walks through them,
 // and its stage needs subgroup votes and arithmetic. Positions count as exact to 2^-18 of their
-// distance. A shader that also defines CANDELABRA_VISIBLE_POINTS has rays of its own, like the module's
-// kernels (CND_HOST_VISIBLE_POINTS_BIT): it defines the function of lib/visibility_query.glsl after the
-// include.
+// distance. If the module's kernels have rays of the host (CND_HOST_VISIBLE_POINTS_BIT), a shader
+// defines CANDELABRA_VISIBLE_POINTS instead, and the function of lib/visibility_query.glsl after the
+// include. A shader of the wrong kind does not fit the set: validation says so when its pipeline is
+// made.
 // A shader with a shadow term defines CANDELABRA_VISIBILITY before the include, and the function of
 // lib/shadow_query.glsl after it.
 // A loop over the lights gives access to each of them, for instance for a shadow term that needs more

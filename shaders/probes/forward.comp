@@ -18,6 +18,14 @@ float candelabraVisibility(ShadowQuery query)
     return (query.light & params.shadowed) != 0u ? 0.5 : 1.0;
 }
 
+#ifdef CANDELABRA_VISIBLE_POINTS
+// Any points, but others of each light.
+uvec2 candelabraVisiblePoints(VisibilityQuery query)
+{
+    return uvec2(0x9E3779B9u, 0x85EBCA6Bu) * (query.light + 1u);
+}
+#endif
+
 layout(binding = FORWARD_PROBE_NORMAL_ROUGHNESS) uniform utexture2D normalRoughnessImage;
 layout(binding = FORWARD_PROBE_ALBEDO) uniform utexture2D albedoImage;
 layout(binding = FORWARD_PROBE_SPECULAR) uniform utexture2D specularImage;
@@ -44,7 +52,8 @@ void main()
     const vec3 position =
         viewPosition(forwardView.projection, uvec2(pixel), params.invImageSize, depth);
     outputs[i].lit = vec4(litSurface(surface, position), 1.0);
-#ifndef CANDELABRA_SHADOWS // llvmpipe takes 20 s to compile the walk in each of these functions
+// llvmpipe takes 20 s to compile the walk in each of these functions.
+#if !defined(CANDELABRA_SHADOWS) && !defined(CANDELABRA_VISIBLE_POINTS)
     const Receiver receiver = forwardReceiver(surface, position);
     vec3 stepped = vec3(0.0), illuminance = vec3(0.0), illuminanceBy = vec3(0.0);
     for (uint type = 0u; type < LIGHT_TYPE_COUNT; ++type) {

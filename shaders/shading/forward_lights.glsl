@@ -38,7 +38,7 @@ layout(set = FORWARD_SET, binding = FORWARD_DFG) uniform textureBuffer dfgTexels
 
 #define LIGHT_FAMILY_ALL
 #define COUNTS_DIFFER true
-#ifdef CANDELABRA_SHADOWS
+#if defined(CANDELABRA_SHADOWS) || defined(CANDELABRA_VISIBLE_POINTS)
 #define SHADOWS
 #define FINDS_SHARES
 #define OCCLUDER_SET FORWARD_SET

@@ -9,7 +9,12 @@
 #ifndef OCCLUDER_SET
 #define OCCLUDER_SET 0
 #endif
-layout(scalar, set = OCCLUDER_SET, binding = SHADOW_VIEW) uniform CandelabraShadows
+#if defined(FORWARD_SET) && defined(CANDELABRA_VISIBLE_POINTS)
+#define SHADOW_VIEW_BINDING SHADOW_VIEW_OF_RAYS
+#else
+#define SHADOW_VIEW_BINDING SHADOW_VIEW
+#endif
+layout(scalar, set = OCCLUDER_SET, binding = SHADOW_VIEW_BINDING) uniform CandelabraShadows
 {
     ShadowView shadowView;
 };

@@ -87,6 +87,9 @@ const uint SHADOW_VIEW = 29u;
 // Bindings of the kernels that read or write visible shares.
 const uint SHADOW_SLOTS = 30u;
 const uint SHADOW_PAGE_SLOTS = 31u; // per page of the entry buffer: the slot of its first light
+// In place of SHADOW_VIEW in the forward set of modules whose hosts have rays: shaders with rays fit
+// that set alone, and shaders that walk fit the others.
+const uint SHADOW_VIEW_OF_RAYS = 35u;
 // Instances, nodes and triangles as texels (shading/software_drivers.glsl); not in the forward set.
 const uint SHADOW_INSTANCE_TEXELS = 32u;
 const uint SHADOW_NODE_TEXELS = 33u;

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <random>
 
+#include "candelabra/compiler.hpp"
 #include "candelabra_probes.h"
 #include "gpu/kernel.h"
 #include "gpu/lighting_harness.h"
@@ -25,21 +26,23 @@ class ForwardTest : public LightingTest
 {
 protected:
     void create(const CpuGBuffer& g, const std::vector<CndLight>& lights, bool byError = false,
-                uint32_t shadowPoints = 0)
+                uint32_t shadowPoints = 0, const CndHostKernels& rays = {})
     {
         own_ = createLighting(
             g, CndLightingDesc{.framesInFlight = 2,
                                .specularMethods = 1u << CND_SPECULAR_CONIC,
                                .shading = CND_SHADING_CLUSTERED_BIT | CND_SHADING_BRUTE_BIT,
                                .forwardStages = VK_SHADER_STAGE_COMPUTE_BIT,
+                               .hostKernels = rays,
                                .influenceByError = byError,
                                .shadows = {.points = shadowPoints}});
         ASSERT_TRUE(own_.lighting && own_.view);
         setLights(own_.lighting, lights);
-        // The set of every module with shadows fits the same pipeline.
+        // The sets of all modules with occluders fit the same pipeline.
         if (!pipeline_.get())
-            createPipeline(shadowPoints ? spirv::forward_comp_candelabra_shadows
-                                        : spirv::forward_comp);
+            createPipeline(rays.count     ? spirv::forward_comp_candelabra_visible_points
+                           : shadowPoints ? spirv::forward_comp_candelabra_shadows
+                                          : spirv::forward_comp);
     }
     void TearDown() override
     {
@@ -406,6 +409,28 @@ TEST_F(ForwardTest, FindsTheShadowsOfTheModulesOccluders)
         EXPECT_GT(maxRelativeDifference(run(seen, lights, options).radiance, shadowed.lit()),
                   points == 64 ? 0.01 : 0.001);
     }
+}
+
+// The function is that of the probe.
+TEST_F(ForwardTest, AsksTheRaysOfTheHost)
+{
+    const CpuGBuffer seen = gbuffer(3);
+    auto kernels = CompiledKernels::create(
+        {.functions = CND_HOST_VISIBLE_POINTS_BIT,
+         .source = "uvec2 candelabraVisiblePoints(CndVisibilityQuery q)\n"
+                   "{ return uvec2(0x9E3779B9u, 0x85EBCA6Bu) * (q.light + 1u); }\n",
+         .lightTypes = 1u << CND_LIGHT_SPHERE,
+         .shadows = VK_TRUE});
+    ASSERT_TRUE(kernels) << kernels.error().message;
+    const std::vector<CndLight> lights = randomSpheres(seen, 20, 7);
+    create(seen, lights, false, 64, kernels.value().hostKernels({}));
+    const RunOptions options{.specular = CND_SPECULAR_CONIC};
+    const Lit shadowed = frame(seen, seen, options);
+    std::vector<glm::vec4> twice = shadowed.lit(); // the view was recorded twice
+    for (glm::vec4& pixel : twice)
+        pixel *= 2;
+    expectAlike(twice, shadowed.deferred, seen, lights, options);
+    EXPECT_GT(maxRelativeDifference(run(seen, lights, options).radiance, shadowed.lit()), 0.1);
 }
 
 } // namespace candelabra::test

@@ -2,6 +2,7 @@
 // Wrong descriptions of shadows, and wrong meshes and instances of occluders, are refused with one
 // sentence that names the offending element, and everything stays as it was.
 #include <limits>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -156,6 +157,40 @@ TEST_F(OccluderInput, RaysOfTheHostNeedPoints)
     expectSentence(made.error(), "CndLightingDesc: hostKernels have CND_HOST_VISIBLE_POINTS_BIT, "
                                  "which needs shadows.points of 32 or 64");
     EXPECT_FALSE(vulkan_.called.contains("CreateComputePipelines"));
+}
+
+// A forward shader that walks finds nothing in a module whose host has rays, and one that has rays
+// may find nothing in a module without. The sets have other bindings, which validation compares.
+TEST_F(OccluderInput, ForwardSetsFitOneKindOfShader)
+{
+    const auto codeOf = [](const char* name, const gpu::Spirv& kernel) {
+        return CndKernelCode{name, kernel.words.data(), uint32_t(kernel.words.size())};
+    };
+    const CndKernelCode rays[] = {
+        codeOf("pair_visibility_points", spirv::pair_visibility_comp_sphere),
+        codeOf("shade_unlisted_points:CONIC", spirv::shade_unlisted_comp_shadows_conic)};
+    std::set<uint32_t> found[2];
+    for (const uint32_t count : {0u, 2u}) {
+        auto lighting =
+            Lighting::create(vulkan_.desc(), {.framesInFlight = 1,
+                                              .forwardStages = VK_SHADER_STAGE_FRAGMENT_BIT,
+                                              .hostKernels = {count, rays, {}},
+                                              .shadows = {.points = 64}});
+        ASSERT_TRUE(lighting) << lighting.error().message;
+        lighting_ = std::move(lighting.value());
+        auto view = lighting_.createView({.maxWidth = 64, .maxHeight = 48});
+        ASSERT_TRUE(view) << view.error().message;
+        view_ = std::move(view.value());
+        record();
+        for (const auto& [binding, resource] : vulkan_.sets[view_.forwardSet(0).value()].resources)
+            found[count / 2].insert(binding);
+    }
+    const std::set<uint32_t> ofWalks{gpu::SHADOW_INSTANCES, gpu::SHADOW_NODES,
+                                     gpu::SHADOW_TRIANGLES, gpu::SHADOW_VIEW};
+    for (const uint32_t binding : ofWalks)
+        EXPECT_TRUE(found[0].erase(binding)) << binding;
+    EXPECT_TRUE(found[1].erase(gpu::SHADOW_VIEW_OF_RAYS));
+    EXPECT_EQ(found[0], found[1]); // all other bindings are the same
 }
 
 TEST_F(OccluderInput, InstancesAreChecked)
