@@ -142,7 +142,6 @@ BAD_OF = {
     ("view", "--frames"): COUNTS, ("bench skip", "--scene"): ["village"],
     ("compare", "--a"): None, ("compare", "--b"): None,
     ("bench culling", "--lights"): [*COUNTS, "0", "1,,2"], ("bench culling", "--size"): [*SIZES, "8x8,"],
-    ("bench host", "--lights"): [*COUNTS, "0", "1,,2"],
     ("bench pipelines", "--kernels"): None,  # tests/program/test_null_device.py
     ("bench culling", "--overlaps"): COUNTS, ("stress", "--lights"): [*COUNTS, "5,5", "5,,6"],
 }
@@ -158,7 +157,6 @@ BASE = {
     "truth": ["truth", "scene.json", "--size=4x4", "--output=x.exr"],
     "bench accuracy": ["bench", "accuracy", "--groups=10", "--size=8x8", "--out=o", "-q"],
     "bench culling": ["bench", "culling", "--scenes=hall", "--lights=5", "--size=8x8", "--out=o"],
-    "bench host": ["bench", "host", "--lights=5", "--rounds=1"],
     "bench pipelines": ["bench", "pipelines"],
     "bench skip": ["bench", "skip", "--lights=5", "--size=8x8", "--out=o"],
     "bench visibility": ["bench", "visibility", "hall", "--lights=5", "--size=8x8", "--pixels=1", "--rounds=1", "--out=o"],

@@ -105,8 +105,6 @@ FOLDERS = [
     ("tools/candelabra/measure/visibility", ["tools/candelabra/measure/frame", "tools/candelabra/measure/profile",
                                              "tools/candelabra/render", "tools/candelabra/generate",
                                              "tools/candelabra/io", PUBLIC, "engine/reference"]),
-    ("tools/candelabra/measure/host", ["tools/candelabra/render", "tools/candelabra/load", "tools/candelabra/scene",
-                                       "tools/candelabra/io", PUBLIC, "shaders/shared/lighting_data.h"]),
     ("tools/candelabra/measure/culling", ["tools/candelabra/measure/frame", "tools/candelabra/measure/kernels",
                                           "tools/candelabra/render", "tools/candelabra/load",
                                           "tools/candelabra/scene", "tools/candelabra/io", PUBLIC, "engine/gpu",

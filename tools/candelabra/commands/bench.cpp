@@ -37,8 +37,8 @@ std::string benchOutput(const std::string& directory, const std::string& option,
 void addBenchCommand(CLI::App& app, Run& run)
 {
     CLI::App* bench =
-        app.add_subcommand("bench", "Measure accuracy, stability, culling, shadows, skips, "
-                                    "CPU time of lights and compiled code");
+        app.add_subcommand("bench", "Measure accuracy, stability, culling, shadows, skips "
+                                    "and compiled code");
     bench->require_subcommand(1);
     bench->footer(
         "Examples:\n"
@@ -48,7 +48,6 @@ void addBenchCommand(CLI::App& app, Run& run)
         "  candelabra bench culling --help          the options of one benchmark");
     addBenchAccuracy(*bench, run);
     addBenchCulling(*bench, run);
-    addBenchHost(*bench, run);
     addBenchPipelines(*bench, run);
     addBenchSkip(*bench, run);
     addBenchStability(*bench, run);

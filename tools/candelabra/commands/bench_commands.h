@@ -11,7 +11,6 @@ namespace candelabra::app
 
 void addBenchAccuracy(CLI::App& bench, Run& run);
 void addBenchCulling(CLI::App& bench, Run& run);
-void addBenchHost(CLI::App& bench, Run& run);
 void addBenchPipelines(CLI::App& bench, Run& run);
 void addBenchSkip(CLI::App& bench, Run& run);
 void addBenchStability(CLI::App& bench, Run& run);
