@@ -6,13 +6,14 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "fit/conic_objective.h"
-#include "fit/polynomials.h"
 #include "harness/paths.h"
 #include "io/csv.h"
+#include "shared/conic_constants.h"
 
 namespace candelabra::test
 {
@@ -130,27 +131,38 @@ TEST(ConicFit, HardGroupsAreThoseWithTheLargestErrors)
               checkObjective().residuals({}).conic.mirror.all.largest * (1 - 1e-9));
 }
 
-// The best straight line for x^2 on [0, 1] is x - 1 / 8. Its error is 1 / 8 at both ends and in the
-// middle.
-TEST(ConicFit, MinimaxFindsTheBestLine)
+// The largest error on [0, 1].
+double largestError(const std::function<double(double)>& approximation,
+                    const std::function<double(double)>& exact)
 {
-    const fit::Minimax line = fit::minimax(
-        {[](double) { return 1.0; }, [](double x) { return x; }}, [](double x) { return x * x; }, 0,
-        1);
-    EXPECT_NEAR(line.largestError, 0.125, 1e-6);
-    EXPECT_NEAR(line.coefficients.at(0), -0.125, 1e-6);
-    EXPECT_NEAR(line.coefficients.at(1), 1, 1e-6);
+    double largest = 0;
+    for (int i = 0; i <= 4000; ++i)
+        largest = std::max(largest, std::abs(approximation(i / 4000.0) - exact(i / 4000.0)));
+    return largest;
 }
 
 // The errors are those that shaders/shared/conic_constants.h states.
 TEST(ConicFit, PolynomialsErrByWhatTheShadersSay)
 {
-    const fit::PolynomialFit arcTangent = fit::fitArcTangent(), segment = fit::fitCircleSegment();
-    EXPECT_LE(arcTangent.committedError, 5.5e-8);
-    EXPECT_NEAR(arcTangent.best.largestError, 4.92e-8, 1e-10);
-    EXPECT_NEAR(arcTangent.best.coefficients.at(0), -double(gpu::CONIC_ATAN_T3), 2e-8);
-    EXPECT_NEAR(segment.committedError, 0.0147, 5e-5);
-    EXPECT_NEAR(segment.best.largestError, 0.0080, 5e-5);
+    const auto arcTangent = [](double t) {
+        double sum = 0;
+        for (const double c :
+             {-gpu::CONIC_ATAN_T15, gpu::CONIC_ATAN_T13, -gpu::CONIC_ATAN_T11, gpu::CONIC_ATAN_T9,
+              -gpu::CONIC_ATAN_T7, gpu::CONIC_ATAN_T5, -gpu::CONIC_ATAN_T3})
+            sum = (sum + c) * t * t;
+        return t + t * sum;
+    };
+    EXPECT_LE(largestError(arcTangent, [](double t) { return std::atan(t); }), 5.5e-8);
+    const auto segment = [](double u) {
+        return u * std::sqrt(u) *
+               (gpu::CONIC_SEGMENT - u * (gpu::CONIC_SEGMENT_U + gpu::CONIC_SEGMENT_U2 * u));
+    };
+    // The part of a circle of radius 1 below the chord at x = 2 u - 1, over the whole area.
+    const auto area = [](double u) {
+        const double x = 2 * u - 1;
+        return (std::acos(-x) + x * std::sqrt(1 - x * x)) / std::numbers::pi;
+    };
+    EXPECT_NEAR(largestError(segment, area), 0.0147, 5e-5);
 }
 
 } // namespace candelabra::test

@@ -15,7 +15,6 @@
 #include <nlopt.h>
 
 #include "fit/commands.h"
-#include "fit/polynomials.h"
 #include "generate/random.h"
 #include "io/error.h"
 #include "io/report.h"
@@ -170,19 +169,6 @@ void printHead()
     fmt::print("\n");
 }
 
-Json reportPolynomials()
-{
-    Json out;
-    for (const PolynomialFit& fit : {fitArcTangent(), fitCircleSegment()}) {
-        fmt::print("{}: largest error {:.3g}; the best polynomial of its form has {:.3g}\n",
-                   fit.name, fit.committedError, fit.best.largestError);
-        out[fit.name] = {{"largestError", fit.committedError},
-                         {"bestLargestError", fit.best.largestError},
-                         {"bestCoefficients", fit.best.coefficients}};
-    }
-    return out;
-}
-
 void printConstants(const std::vector<Search>& searches)
 {
     fmt::print("\n{:<28}{:>10}", "constant", "committed");
@@ -249,7 +235,6 @@ void runConic(const ConicSettings& s, const std::string& commandLine)
                                           s.training.hard, s.training.others));
     if (!s.json.empty())
         app::requireWritable("--json", s.json);
-    const Json polynomials = reportPolynomials();
     const Groups groups = integrate(s);
     const std::vector<Search> searches = searchFromAll(s, groups.training);
 
@@ -280,8 +265,7 @@ void runConic(const ConicSettings& s, const std::string& commandLine)
                  {"perturbation", s.perturbation},
                  {"committed", committed},
                  {"check", {{"cost", check.cost({})}, {"residuals", toJson(check.residuals({}))}}},
-                 {"searches", found},
-                 {"polynomials", polynomials}});
+                 {"searches", found}});
     fmt::print("wrote {}\n", s.json);
 }
 
