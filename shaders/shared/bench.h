@@ -46,10 +46,6 @@ const uint EVALUATE_ABOVE = 0u;   // sphere, or light with an outline, above the
 const uint EVALUATE_NEAR = 1u;    // sphere that nearly touches the horizon, or tiny across it
 const uint EVALUATE_GENERAL = 2u; // any other light that reaches the point
 const uint EVALUATE_NONE = 3u;    // light that does not reach the point
-const uint SPEC_BENCH_FORM_FACTOR = 17u;  // time_form_factor: which form
-const uint BENCH_FORM_FACTOR_NONE = 0u;   // the loop alone
-const uint BENCH_FORM_FACTOR_ROBUST = 1u; // lib/lights/sphere.glsl
-const uint BENCH_FORM_FACTOR_NAIVE = 2u;  // acos and atan
 
 // --- sweep_inputs: random and adversarial inputs, generated from a seed and an index
 #define CND_SWEEP_SLICES(X)                                                                        \

@@ -115,18 +115,6 @@ void addTimes(const VulkanContext& context, const KernelLevelSettings& s, Progre
                 plans.push_back({i, out.points[i].cases.size() - 1, both, diffuse});
             }
         }
-    const auto addForm = [&](uint32_t form, EvaluationCase lights) {
-        return plan.add({.name = {},
-                         .evaluation = {.method = CND_SPECULAR_NONE},
-                         .evaluationCase = lights,
-                         .formFactor = true,
-                         .form = form},
-                        -1);
-    };
-    const int loop = addForm(gpu::BENCH_FORM_FACTOR_NONE, EvaluationCase::General);
-    const int robust = addForm(gpu::BENCH_FORM_FACTOR_ROBUST, EvaluationCase::General);
-    const int naive = addForm(gpu::BENCH_FORM_FACTOR_NAIVE, EvaluationCase::General);
-    const int naiveAbove = addForm(gpu::BENCH_FORM_FACTOR_NAIVE, EvaluationCase::Above);
     progress.doing("timing kernels");
     const std::vector<VariantTime> times =
         timeVariants(context, plan.variants, plan.baseline, s.timing,
@@ -139,16 +127,11 @@ void addTimes(const VulkanContext& context, const KernelLevelSettings& s, Progre
     const auto rounds = [&](int i) -> const std::vector<double>& {
         return times[size_t(i)].roundsNs;
     };
-    const auto difference = [&](int a, int b) {
-        return medianAboveNoise(differences(rounds(a), rounds(b)));
-    };
     for (const CasePlan& c : plans) {
         KernelPoint::Case& entry = out.points[c.point].cases[c.index];
         entry.both = times[size_t(c.both)];
-        entry.specularNs = difference(c.both, c.diffuse);
+        entry.specularNs = medianAboveNoise(differences(rounds(c.both), rounds(c.diffuse)));
     }
-    out.formFactor = {difference(robust, loop), difference(naive, loop),
-                      difference(naiveAbove, loop)};
 }
 
 } // namespace
@@ -302,19 +285,8 @@ Table timeTable(const KernelLevel& level)
         type = p.lightType;
         addTimeRow(table, p);
     }
-    const FormFactorTime& form = level.formFactor;
-    table.note(
-        fmt::format("form factor of a sphere across the horizon: {} ns; with acos and atan: {} ns",
-                    threeDigits(form.robustNs), threeDigits(form.naiveNs)));
-    table.note(fmt::format("form factor above the horizon: none; with acos and atan: {} ns",
-                           threeDigits(form.naiveAboveNs)));
     table.note(pairedLegend());
     return table;
-}
-
-Json orNull(const std::optional<double>& ns)
-{
-    return ns ? Json(*ns) : Json();
 }
 
 Json toJson(const VariantTime& t)
@@ -336,7 +308,7 @@ Json kernelJson(const KernelLevelSettings& s, const KernelLevel& level)
         Json times = Json::object();
         for (const KernelPoint::Case& c : p.cases) {
             Json time = toJson(c.both);
-            time["specularAloneNs"] = orNull(c.specularNs);
+            time["specularAloneNs"] = c.specularNs ? Json(*c.specularNs) : Json();
             times[caseName(c.evaluationCase)] = time;
         }
         points.push_back({{"light", lightTypeName(p.lightType)},
@@ -356,10 +328,6 @@ Json kernelJson(const KernelLevelSettings& s, const KernelLevel& level)
               {"fewLights", s.timing.fewLights},
               {"manyLights", s.timing.manyLights},
               {"rounds", s.timing.rounds}}},
-            {"formFactorNs",
-             {{"robust", orNull(level.formFactor.robustNs)},
-              {"naive", orNull(level.formFactor.naiveNs)},
-              {"naiveAbove", orNull(level.formFactor.naiveAboveNs)}}},
             {"points", points}};
 }
 

@@ -40,17 +40,8 @@ struct KernelPoint {
     std::vector<Case> cases; // empty without timestamps
 };
 
-// The time that the form factor of a sphere takes: as the engine computes it and in the naive form
-// for lights that cross the horizon, and in the naive form for lights above it. The engine then
-// needs only the product of cosine and s^2. That product is subtracted from all three, like the
-// loop over the lights and the light's direction. A time below the noise is none.
-struct FormFactorTime {
-    std::optional<double> robustNs, naiveNs, naiveAboveNs;
-};
-
 struct KernelLevel {
     std::vector<KernelPoint> points;
-    FormFactorTime formFactor;
     size_t unconvergedTruths = 0; // samples whose quadrature did not reach the tolerance
     size_t samples = 0;
 };

@@ -104,14 +104,11 @@ public:
         Prepared out;
         out.kernel = gpu::Kernel<gpu::BenchParams>(
             device,
-            v.formFactor ? spirv::time_form_factor_comp_sphere
-            : isRival    ? spirv::time_lights_comp_ltc
-                         : ofFamily(spirv::time_lights_comp, v.evaluation),
+            isRival ? spirv::time_lights_comp_ltc : ofFamily(spirv::time_lights_comp, v.evaluation),
             {{gpu::SPEC_FOR_CPU, lighting::forCpu(device)},
              {gpu::SPEC_SPECULAR_METHOD, v.evaluation.method.specular},
              {gpu::SPEC_LIGHT_TYPE, v.evaluation.lightType},
-             {gpu::SPEC_BENCH_EVALUATION, uint32_t(v.evaluationCase)},
-             {gpu::SPEC_BENCH_FORM_FACTOR, v.form}});
+             {gpu::SPEC_BENCH_EVALUATION, uint32_t(v.evaluationCase)}});
         out.bindings = out.kernel.createBindings(1);
         writeBindings(out.bindings, lights_.at(key), receivers_, output_,
                       isRival ? &ltcTable_ : nullptr);

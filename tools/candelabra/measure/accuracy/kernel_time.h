@@ -24,9 +24,6 @@ struct TimedVariant {
     Evaluation evaluation;
     EvaluationCase evaluationCase = EvaluationCase::Above;
     EvaluationCase lights = evaluationCase; // the case whose lights are evaluated
-    // With formFactor only a form factor is evaluated, in the form `form` (BENCH_FORM_FACTOR_*).
-    bool formFactor = false;
-    uint32_t form = 0;
 };
 
 struct VariantTime {
