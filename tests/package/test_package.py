@@ -143,7 +143,7 @@ def run_hosts(folder, *names):
 # Neither the library nor its hosts need these. CMake stops if one of them is required.
 WITHOUT = [f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=TRUE" for name in
            ("Vulkan", "glslang", "glfw3", "GTest", "CLI11", "fmt", "meshoptimizer", "nlohmann_json", "spdlog",
-            "TinyGLTF", "OpenEXR", "draco", "PkgConfig", "Python3", "Doxygen")]
+            "TinyGLTF", "OpenEXR", "draco", "PkgConfig", "Python3")]
 
 
 def found():

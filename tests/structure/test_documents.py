@@ -5,6 +5,7 @@ decisions have their four parts, the names that documents cite exist, and DESIGN
 folders.
 Usage: test_documents.py REPOSITORY"""
 import fnmatch
+import itertools
 import pathlib
 import re
 import subprocess
@@ -15,9 +16,6 @@ sys.dont_write_bytecode = True  # the source may be read-only
 import test_includes
 
 root = pathlib.Path(sys.argv[1]).resolve()
-sys.path.insert(0, str(root / "engine/package"))
-import doxygen_filter
-
 failures = []
 
 
@@ -44,7 +42,14 @@ def without_code(text):
 
 def anchors(path):
     """Returns the anchors that GitHub gives to the headings of a document."""
-    return {anchor for _, anchor in doxygen_filter.headings(path.read_text(encoding="utf-8").split("\n"))}
+    taken = set()
+    text = re.sub(r"^```.*?^```$", "", path.read_text(encoding="utf-8"), flags=re.DOTALL | re.MULTILINE)
+    for heading in re.findall(r"^#{1,6} (.*)", text, re.MULTILINE):
+        words = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).replace("`", "").strip().lower()
+        slug = re.sub(r"[^\w\- ]", "", words).replace(" ", "-")
+        numbered = (f"{slug}-{number}" for number in itertools.count(1))
+        taken.add(slug if slug not in taken else next(name for name in numbered if name not in taken))
+    return taken
 
 
 def check_link(document, target):
