@@ -46,6 +46,15 @@ void forEach(std::span<const uint32_t> words, Visit&& visit)
         visit(words.subspan(i, words[i] >> 16));
 }
 
+// Returns the module up to its first function: types, constants and the variables of its interface.
+std::span<const uint32_t> declarationsOf(std::span<const uint32_t> words)
+{
+    size_t i = headerWords;
+    while (i < words.size() && opcode(&words[i]) != OpFunction)
+        i += words[i] >> 16;
+    return words.first(i);
+}
+
 // The ids that declare one binding of descriptor set 0.
 struct Declaration {
     uint32_t variable = 0;           // 0: the shader has no such binding
@@ -56,7 +65,7 @@ Declaration declarationOf(std::span<const uint32_t> words, uint32_t binding)
 {
     std::vector<uint32_t> hasBinding, isHosts;
     std::vector<std::span<const uint32_t>> types, variables;
-    forEach(words, [&](std::span<const uint32_t> at) {
+    forEach(declarationsOf(words), [&](std::span<const uint32_t> at) {
         const uint32_t op = opcode(at.data());
         if (op == OpDecorate && at[2] == DecorationBinding && at[3] == binding)
             hasBinding.push_back(at[1]);

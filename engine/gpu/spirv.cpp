@@ -27,13 +27,15 @@ public:
         constexpr uint32_t magic = 0x07230203;
         bool whole = words_.size() >= headerWords && words_[0] == magic;
         uint32_t last = 0;
+        bool inFunctions = false; // reflection needs nothing after the first function
         for (size_t i = headerWords; whole && i < words_.size();) {
             const uint32_t* at = &words_[i];
             const size_t length = at[0] >> 16;
             whole = length > 0 && length <= words_.size() - i;
             last = opcode(at);
+            inFunctions = inFunctions || last == OpFunction;
             whole = whole && length >= leastLength(last, at, length);
-            if (whole)
+            if (whole && !inFunctions)
                 read(last, at);
             i += length;
         }
@@ -106,6 +108,7 @@ private:
         case OpTypePointer:
         case OpConstant:
         case OpVariable:
+        case OpLoad: // FormattedSpirv reads it
             return 4;
         case OpTypeFloat:
             return 3;

@@ -23,6 +23,7 @@ enum : uint32_t {
     OpTypeStruct = 30,
     OpTypePointer = 32,
     OpConstant = 43,
+    OpFunction = 54,
     OpFunctionEnd = 56,
     OpVariable = 59,
     OpLoad = 61,
