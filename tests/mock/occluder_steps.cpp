@@ -8,7 +8,7 @@ namespace
 {
 
 // Each number needs larger buffers than the one before.
-constexpr uint32_t fewTriangles = 2, manyTriangles = 3000, fewOccluders = 2, manyOccluders = 700;
+constexpr uint32_t fewTriangles = 2, manyTriangles = 1000, fewOccluders = 2, manyOccluders = 700;
 
 // Static, so that nothing of it is allocated while the heap fails.
 struct OccluderInputs {
