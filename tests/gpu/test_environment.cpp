@@ -289,7 +289,8 @@ TEST_F(EnvironmentTest, LevelGroundGetsAllLightOfOneTexel)
         double worst = 0;
         const uint32_t rows = (height + 1) / 2;
         std::vector<uint32_t> tried = {0, std::min(1u, rows - 1), rows - 1};
-        for (int i = 0; i < (fullTests() ? 20 : 2); ++i)
+        const int more = fullTests() ? 20 : width < 1000 ? 2 : 0; // large images take long
+        for (int i = 0; i < more; ++i)
             tried.push_back(random(rows));
         for (const uint32_t y : tried) {
             EnvironmentImage image{width, height, std::vector<glm::vec4>(size_t(width) * height)};

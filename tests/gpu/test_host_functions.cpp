@@ -161,9 +161,10 @@ protected:
 // With lists, with no room for lists, and with every light at every pixel.
 TEST_F(HostFunctions, AShadowTermScalesEachLightById)
 {
-    const CompiledKernels kernels =
-        compiled({.functions = CND_HOST_VISIBILITY_BIT, .source = shadowSource});
-    const RunOptions options = withShadows(kernels, {.specular = CND_SPECULAR_CONIC});
+    const CompiledKernels kernels = compiled({.functions = CND_HOST_VISIBILITY_BIT,
+                                              .source = shadowSource,
+                                              .specularMethods = 1u << RunOptions{}.specular});
+    const RunOptions options = withShadows(kernels);
     const auto [lighting, view] = create(options);
     const CndLightingView narrow = createNarrowView(lighting);
     std::vector<CndLight> lights, scaled;
@@ -190,8 +191,9 @@ TEST_F(HostFunctions, AShadowTermScalesEachLightById)
 // The form of shading that GPUs run asks the shadow term for the same lights.
 TEST_F(HostFunctions, FormsForGpusAskTheShadowTermAlike)
 {
-    const CompiledKernels kernels =
-        compiled({.functions = CND_HOST_VISIBILITY_BIT, .source = shadowSource});
+    const CompiledKernels kernels = compiled({.functions = CND_HOST_VISIBILITY_BIT,
+                                              .source = shadowSource,
+                                              .lightTypes = 1u << CND_LIGHT_SPHERE});
     const std::vector<CndLight> lights = lightsOf(CND_LIGHT_SPHERE, g_, 300, 41);
     std::vector<CndLight> scaled;
     for (const CndLight& light : lights)
