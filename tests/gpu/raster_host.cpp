@@ -4,6 +4,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "candelabra_probes.h"
+#include "measure/kernels/vectors.h"
 #include "render/check.h"
 #include "render/image_barrier.h"
 #include "shared/host_scene.h"
@@ -13,8 +14,10 @@ namespace candelabra::test
 namespace
 {
 
-constexpr double nearPlane = 0.5, farPlane = 60; // metres
-constexpr float linearUnit = 60;                 // metres per unit of linear depth
+using app::set;
+
+constexpr double nearEnd = 0.5, farEnd = 60; // metres
+constexpr float linearUnit = 60;             // metres per unit of linear depth
 constexpr VkFormat nativeFormat = VK_FORMAT_R32G32_UINT;
 constexpr VkFormat hostFormats[] = {VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_R8G8B8A8_UNORM,
                                     VK_FORMAT_R32G32B32A32_SFLOAT};
@@ -44,7 +47,7 @@ glm::dmat4 viewFromWorld(const HostCase& host)
 glm::dmat4 projectionOf(const HostCase& host, double aspect)
 {
     constexpr double cotangent = 1.6; // of half the vertical field of view
-    constexpr double n = nearPlane, f = farPlane;
+    constexpr double n = nearEnd, f = farEnd;
     glm::dmat4 m(0);
     m[0][0] = cotangent / aspect;
     m[1][1] = -cotangent;
@@ -119,12 +122,6 @@ gpu::HostScene sceneOf(const HostCase& host, uint32_t width, uint32_t height)
                       wallOf(host, {-1, 0, -2}, {1.5, 0, 0.7}, {0, 1.5, -0.4}, 1, 3), // leans
                       wallOf(host, {1.5, 0.8, -3}, {1.2, 0, 0}, {0, 0, 1.2}, -1, 0),  // a box
                       wallOf(host, {1.5, 0, -1.8}, {1.2, 0, 0}, {0, 0.8, 0}, 1, 1)}};
-}
-
-void set(float (&out)[3], const glm::dvec3& v)
-{
-    for (int i = 0; i < 3; ++i)
-        out[i] = float(v[i]);
 }
 
 constexpr VkPipelineStageFlags2 depthTests =

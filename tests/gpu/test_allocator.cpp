@@ -14,12 +14,12 @@ namespace
 constexpr VkDeviceSize blockBytes = 1 << 22;
 
 // One type with lists and one without.
-constexpr CndLightType types[] = {CND_LIGHT_SPHERE, CND_LIGHT_DIRECTIONAL};
+constexpr CndLightType usedTypes[] = {CND_LIGHT_SPHERE, CND_LIGHT_DIRECTIONAL};
 
 std::vector<CndLight> someLights(const CpuGBuffer& g)
 {
     std::vector<CndLight> lights;
-    for (const CndLightType type : types)
+    for (const CndLightType type : usedTypes)
         for (const CndLight& light : lightsOf(type, g, 60, type))
             lights.push_back(light);
     return lights;
@@ -86,7 +86,7 @@ TEST_F(LightingTest, PlannedMemoryIsEnough)
     const CndLightingDesc desc{.framesInFlight = 2,
                                .specularMethods = 1u << RunOptions{}.specular,
                                .lightCapacity = uint32_t(lights.size()),
-                               .lightTypes = 1u << types[0] | 1u << types[1]};
+                               .lightTypes = 1u << usedTypes[0] | 1u << usedTypes[1]};
     const CndLightingViewDesc viewDesc{.maxWidth = g.width, .maxHeight = g.height};
     auto planned = Lighting::plan(deviceDesc(), desc, std::array{viewDesc});
     ASSERT_TRUE(planned) << planned.error().message;

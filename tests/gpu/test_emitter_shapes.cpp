@@ -8,6 +8,7 @@
 #include "gpu/raster_rays.h"
 #include "harness/constants.h"
 #include "harness/full_tests.h"
+#include "measure/kernels/vectors.h"
 #include "reference/visible_lights.h"
 #include "scene/polygons.h"
 #include "shared/raster.h"
@@ -17,15 +18,11 @@ namespace candelabra::test
 namespace
 {
 
+using app::set;
+
 glm::dvec3 vec(const float (&v)[3])
 {
     return glm::dvec3(glm::make_vec3(v));
-}
-
-void set(float (&out)[3], const glm::dvec3& v)
-{
-    for (int i = 0; i < 3; ++i)
-        out[i] = float(v[i]);
 }
 
 // Returns where the ray first meets the light in front of the eye, or infinity. The light is

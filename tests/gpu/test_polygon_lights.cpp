@@ -7,6 +7,7 @@
 
 #include "gpu/lighting_harness.h"
 #include "measure/kernels/light_kernels.h"
+#include "measure/kernels/vectors.h"
 #include "reference/truth.h"
 #include "render/setting_names.h"
 #include "scene/polygons.h"
@@ -18,18 +19,13 @@ namespace
 {
 
 using app::LightEvaluator;
+using app::set;
 using app::specularName;
 
 struct Case {
     gpu::BenchReceiver receiver;
     CndLight light;
 };
-
-void set(float (&out)[3], const glm::vec3& v)
-{
-    for (int i = 0; i < 3; ++i)
-        out[i] = v[i];
-}
 
 glm::vec3 vec(const float (&v)[3])
 {
