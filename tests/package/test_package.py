@@ -169,9 +169,12 @@ def fetched():
     require("https://ADDRESS/candelabra.git" in commands, f"no address to replace in {commands}")
     get, folder = work / "get.cmake", work / "fetched"
     get.write_text(commands.replace("https://ADDRESS/candelabra.git", f'"{repository.as_uri()}"'), encoding="utf-8")
-    options = [f"-DGET={get}", "-DCPP=ON", "-DCMAKE_BUILD_TYPE=Release"]
-    if os.environ.get("CANDELABRA_FULL_TESTS") != "1":  # compiling the shaders again takes a minute
-        options.append(f"-DCANDELABRA_COMPILED_SHADERS={build}/shaders")
+    options = [f"-DGET={get}", "-DCPP=ON"]
+    if os.environ.get("CANDELABRA_FULL_TESTS") == "1":
+        options.append("-DCMAKE_BUILD_TYPE=Release")
+    else:  # compiling the shaders again takes a minute, and optimising the library again half a minute
+        options += [f"-DCANDELABRA_COMPILED_SHADERS={build}/shaders", "-DCMAKE_BUILD_TYPE=Debug",
+                    "-DCMAKE_CXX_FLAGS_DEBUG="]
     consume(folder, [*options, f"-DSAMPLE={source}/samples/embed_minimal"], *CPP)
     run_sample(folder / "sample/embed_minimal")
 
