@@ -105,6 +105,8 @@ public:
     const gpu::Buffer& clusters() const { return clusters_; }
     uint32_t splitCapacity() const { return splitCapacity_; }
     uint32_t firstSplit() const { return maxTileCount(); }
+    // The number of clusters of tiles and slices, which come before those of blocks.
+    uint32_t firstOfBlocks() const { return firstSplit() + splitCapacity_ * gpu::SLICES; }
     const gpu::Buffer& entries() const { return entries_; }
     const gpu::Buffer& nodes() const { return nodes_; }
     const gpu::Buffer& splits() const { return splits_; }
@@ -120,7 +122,6 @@ private:
     // The buffer of clusters holds one per tile of the largest frame, then the slices of split
     // tiles, then the slices of blocks.
     uint32_t maxTileCount() const { return sizes_.maxTiles.x * sizes_.maxTiles.y; }
-    uint32_t firstOfBlocks() const { return firstSplit() + splitCapacity_ * gpu::SLICES; }
     uint32_t pageCount() const
     {
         return uint32_t(entries_.size / (gpu::PAGE_WORDS * sizeof(uint32_t)));

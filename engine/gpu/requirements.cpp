@@ -36,7 +36,7 @@ namespace
 
 // Limits that must exceed the minimum that Vulkan guarantees: X(limit, least value, parts).
 // Exposure has a lane per bin of its histogram; cluster_lists has ten storage buffers,
-// cull_triangles six, shade_unlisted with shadows eleven.
+// cull_triangles six, ask_pairs and shade_unlisted with shadows eleven.
 #define CND_LIMIT_NEEDS(X)                                                                         \
     X(maxComputeWorkGroupInvocations, 256, exposureModule)                                         \
     X(maxComputeWorkGroupSize[0], 256, exposureModule)                                             \
@@ -232,7 +232,7 @@ std::string missingNeeds(const InstanceFunctions& functions, const CndDeviceDesc
         missing.push_back(#limit " of at least " + std::to_string(least));
     CND_LIMIT_NEEDS(X)
 #undef X
-    constexpr VkSubgroupFeatureFlags subgroupNeeds = // used by count_pairs and cluster_lists
+    constexpr VkSubgroupFeatureFlags subgroupNeeds = // of count_pairs, cluster_lists and others
         VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_VOTE_BIT |
         VK_SUBGROUP_FEATURE_ARITHMETIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT;
     if (parts & lightingModule &&

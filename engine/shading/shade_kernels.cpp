@@ -175,7 +175,7 @@ bool ShadeKernels::runJob(const Job& job)
         slot.kernels.measure = std::move(made.measure);
         break;
     case Visibility:
-        slot.kernels.visibility = std::move(made.visibility);
+        std::ranges::move(made.visibility, slot.kernels.visibility);
         break;
     }
     slot.made.fetch_or(job.bit());
@@ -228,7 +228,9 @@ ShadeKernels::Variant ShadeKernels::make(const Job& job) const
         out.measure = makeKernel<gpu::MeasureInfluenceParams>(*kernels[0], job);
         break;
     case Visibility:
-        out.visibility = makeKernel<gpu::PairVisibilityParams>(*kernels[0], job);
+        for (uint32_t kind = 0; kind < pairKinds(); ++kind)
+            out.visibility[kind] =
+                makeKernel<gpu::PairVisibilityParams>(*kernels[0], job, gpu::ANY_HEIGHT, kind);
         break;
     }
     return out;
@@ -236,7 +238,7 @@ ShadeKernels::Variant ShadeKernels::make(const Job& job) const
 
 template <typename Params>
 gpu::Kernel<Params> ShadeKernels::makeKernel(const gpu::Spirv& builtIn, const Job& job,
-                                             uint32_t height) const
+                                             uint32_t height, uint32_t pairKind) const
 {
     const gpu::FormattedSpirv code =
         surfaces::addingTo(radianceFormat_, host_->of(builtIn), gpu::RADIANCE_IMAGE);
@@ -248,7 +250,8 @@ gpu::Kernel<Params> ShadeKernels::makeKernel(const gpu::Spirv& builtIn, const Jo
                                 {gpu::SPEC_TILE_CLASS, job.tileClass},
                                 {gpu::SPEC_TILE_HEIGHT, height},
                                 {gpu::SPEC_VISIBILITY_POINTS, shadowPoints_},
-                                {gpu::SPEC_WALK_TURNS, walkTurns(*device_)}},
+                                {gpu::SPEC_WALK_TURNS, walkTurns(*device_)},
+                                {gpu::SPEC_PAIR_KIND, pairKind}},
                                host_->setLayout());
 }
 

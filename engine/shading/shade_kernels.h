@@ -62,16 +62,20 @@ public:
         gpu::Kernel<gpu::ShadeBruteParams> brute;
         // Only with CndLightingDesc::influenceByError.
         gpu::Kernel<gpu::MeasureInfluenceParams> measure;
-        // Only of CND_SPECULAR_NONE, for all methods, with CndLightingDesc::shadows.
-        gpu::Kernel<gpu::PairVisibilityParams> visibility;
+        // Only of CND_SPECULAR_NONE, for all methods, with CndLightingDesc::shadows. One per kind
+        // of pairs, such as gpu::PAIRS_WALKED; those below pairKinds() exist.
+        gpu::Kernel<gpu::PairVisibilityParams> visibility[gpu::PAIR_KINDS];
     };
     // These return kernels of a type that is present, for a frame that is allowed.
     const Variant& variant(uint32_t type, CndSpecularMethod method) const;
     // The kernel that finds the visibility of lights of a type, with CndLightingDesc::shadows.
-    const gpu::Kernel<gpu::PairVisibilityParams>& visibility(uint32_t type) const
+    // `kind`: one of pairKinds().
+    const gpu::Kernel<gpu::PairVisibilityParams>& visibility(uint32_t type, uint32_t kind) const
     {
-        return slots_[type][CND_SPECULAR_NONE].kernels.visibility;
+        return slots_[type][CND_SPECULAR_NONE].kernels.visibility[kind];
     }
+    // Returns the number of kinds of pairs: if the host finds points, there is only PAIRS_WALKED.
+    uint32_t pairKinds() const { return host_->findsPoints() ? 1 : gpu::PAIR_KINDS; }
     // `tileClass`: one of tileClasses().
     const Tiles& tiles(uint32_t type, CndSpecularMethod method, uint32_t tileClass) const;
     // Returns the number of tile classes that have a work list and kernels: CLASS_ANY has them, and
@@ -114,7 +118,8 @@ private:
     Variant make(const Job& job) const;
     template <typename Params>
     gpu::Kernel<Params> makeKernel(const gpu::Spirv& builtIn, const Job& job,
-                                   uint32_t height = gpu::ANY_HEIGHT) const;
+                                   uint32_t height = gpu::ANY_HEIGHT,
+                                   uint32_t pairKind = gpu::PAIRS_WALKED) const;
 
     const gpu::Device* device_;
     const surfaces::HostKernels* host_;

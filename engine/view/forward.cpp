@@ -26,8 +26,8 @@ std::vector<gpu::ReflectedBinding> bindings(ForwardShadows shadows)
              {gpu::SHADOW_INSTANCES, gpu::SHADOW_NODES, gpu::SHADOW_TRIANGLES})
             out.push_back({binding, storage, 1});
     out.push_back({gpu::SHADOW_POINTS, texels, 1});
-    out.push_back({rays ? gpu::SHADOW_VIEW_OF_RAYS : gpu::SHADOW_VIEW,
-                   VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1});
+    out.push_back(
+        {rays ? gpu::SHADOW_VIEW_OF_RAYS : gpu::SHADOW_VIEW, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1});
     return out;
 }
 

@@ -13,14 +13,14 @@ namespace
 
 // The name of each Pass, which is that of its kernel.
 constexpr std::array<const char*, passCount> names = {
-    "device_lights",   "light_order",    "dfg_table",         "prepare_lights", "prepare_occluders",
-    "polygon_facets",  "project_depth",  "measure_influence", "cut_lights",     "tile_clusters",
-    "split_tiles",     "block_clusters", "light_tree",        "cluster_lists",  "ask_pairs",
-    "pair_visibility", "shade_tiles",    "shade_unlisted",    "shade_brute",    "count_pairs",
-    "count_shadows"};
+    "device_lights",  "light_order",     "dfg_table",         "prepare_lights", "prepare_occluders",
+    "polygon_facets", "project_depth",   "measure_influence", "cut_lights",     "tile_clusters",
+    "split_tiles",    "block_clusters",  "light_tree",        "cluster_lists",  "ask_pairs",
+    "list_occluders", "pair_visibility", "shade_tiles",       "shade_unlisted", "shade_brute",
+    "count_pairs",    "count_shadows"};
 
-constexpr Pass ofShadows[] = {Pass::PrepareOccluders, Pass::PolygonFacets, Pass::AskPairs,
-                              Pass::PairVisibility, Pass::CountShadows};
+constexpr Pass ofShadows[] = {Pass::PrepareOccluders, Pass::PolygonFacets,  Pass::AskPairs,
+                              Pass::ListOccluders,    Pass::PairVisibility, Pass::CountShadows};
 
 constexpr Pass clustering[] = {Pass::TileClusters, Pass::SplitTiles, Pass::BlockClusters,
                                Pass::LightTree, Pass::ClusterLists};
@@ -88,10 +88,11 @@ void FramePasses::skipShadows(const FrameContent& c)
         else if (!c.occludersInLayers && (pass == Pass::PrepareOccluders || !c.hostFindsPoints))
             skip(pass, "no occluder of the view's layers");
     if (c.brute)
-        for (const Pass pass : {Pass::AskPairs, Pass::CountShadows})
+        for (const Pass pass : {Pass::AskPairs, Pass::ListOccluders, Pass::CountShadows})
             skip(pass, "brute force");
     if (!c.placedInView)
-        skip(Pass::AskPairs, "distant lights only");
+        for (const Pass pass : {Pass::AskPairs, Pass::ListOccluders})
+            skip(pass, "distant lights only");
     if (!c.polygons)
         skip(Pass::PolygonFacets, "no polygons");
     if (c.listsKept)
@@ -110,11 +111,12 @@ void FramePasses::addFindings(const gpu::LightingCounters& counters)
     if (!runs(Pass::ShadeTiles)) // brute force, or no light
         return;
     if (!surfaceTileCount(counters))
-        for (const Pass pass : {Pass::SplitTiles, Pass::AskPairs, Pass::PairVisibility,
-                                Pass::ShadeTiles, Pass::CountPairs, Pass::CountShadows})
+        for (const Pass pass :
+             {Pass::SplitTiles, Pass::AskPairs, Pass::ListOccluders, Pass::PairVisibility,
+              Pass::ShadeTiles, Pass::CountPairs, Pass::CountShadows})
             skip(pass, "no surface");
     if (listsAlone_ && !counters.listEntries)
-        for (const Pass pass : {Pass::PairVisibility, Pass::ShadeTiles})
+        for (const Pass pass : {Pass::ListOccluders, Pass::PairVisibility, Pass::ShadeTiles})
             skip(pass, "every list is empty");
     if (!counters.splitTiles)
         skip(Pass::SplitTiles, "no deep tile");

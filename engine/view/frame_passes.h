@@ -26,6 +26,7 @@ enum class Pass : uint8_t {
     LightTree,
     ClusterLists,
     AskPairs,
+    ListOccluders,
     PairVisibility,
     ShadeTiles,
     ShadeUnlisted,

@@ -3,6 +3,7 @@
 
 #include "candelabra_shaders.h"
 #include "gpu/image_format.h"
+#include "lights/light_limits.h"
 
 namespace candelabra::lighting
 {
@@ -28,6 +29,7 @@ Kernels::Kernels(const gpu::Device& device, const surfaces::HostKernels& host,
                          spirv::polygon_facets_comp,
                          {{gpu::SPEC_VISIBILITY_POINTS, desc.shadows.points}}};
         askPairs = {device, spirv::ask_pairs_comp};
+        listOccluders = {device, spirv::list_occluders_comp, {{gpu::SPEC_FOR_CPU, forCpu(device)}}};
         for (uint32_t tileClass = 0; tileClass < shade.tileClasses(); ++tileClass)
             countShadows[tileClass] = {
                 device, spirv::count_shadows_comp, {{gpu::SPEC_TILE_CLASS, tileClass}}};

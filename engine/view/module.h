@@ -33,6 +33,7 @@ struct Kernels {
     PreparedOccluders::Kernel prepareOccluders;
     gpu::Kernel<gpu::PolygonFacetsParams> polygonFacets;
     gpu::Kernel<gpu::AskPairsParams> askPairs;
+    gpu::Kernel<gpu::ListOccludersParams> listOccluders;
     gpu::Kernel<gpu::CountShadowsParams> countShadows[gpu::TILE_CLASSES];
 };
 

@@ -83,9 +83,12 @@ Shadows::Shadows(const Module& module, const Clusters& clusters, uint32_t slots,
       capacity_(uint32_t(budget / slotBytes)),
       slots_(createScratch(module, "visibility slots",
                            slotCount(module.device, budget, maxTiles) * slotBytes)),
-      records_(createScratch(
-          module, "asked pairs", sizeof(gpu::WorkList) + capacity_ * sizeof(gpu::AskRecord),
-          VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT)),
+      asked_(createScratch(module, "asked pairs",
+                           sizeof(gpu::AskedPairs) +
+                               VkDeviceSize(capacity_) * gpu::ASKED_WORDS * sizeof(uint32_t),
+                           VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT)),
+      bounds_(createScratch(module, "bounds of samples",
+                            clusters.firstOfBlocks() * sizeof(gpu::SampleBounds))),
       pageSlots_(
           createScratch(module, "slots of pages", clusters.entries().size / gpu::PAGE_WORDS)),
       points_(gpu::createBuffer(module.device, "visibility points",
@@ -98,6 +101,7 @@ Shadows::Shadows(const Module& module, const Clusters& clusters, uint32_t slots,
       visibilitySets_(module.device, spirv::pair_visibility_comp_sphere,
                       slots * CND_LIGHT_TYPE_COUNT),
       countSets_(module.kernels.countShadows[0].createBindings(slots * CND_LIGHT_TYPE_COUNT)),
+      listSets_(module.kernels.listOccluders.createBindings(slots)),
       polygonSets_(module.kernels.polygonFacets.createBindings(slots))
 {
     static_assert(sizeof(gpu::ShadowView) <= viewStride);
@@ -160,8 +164,14 @@ void Shadows::writeBindings(const FramePlan& plan, const Inputs& in) const
     BindingList surfaces;
     surfaces.add(occluderBindings(slot));
     surfaces.add(occluderTexels());
-    surfaces.add(in.gbuffer.bindings());
     const Binding shadowCounters = counters(in.counters);
+    listSets_.write(
+        slot,
+        {Binding::of(SHADE_SHAPES, in.shapes), Binding::of(LIST_OCCLUDERS_ASKED, asked_),
+         Binding::of(LIST_OCCLUDERS_BOUNDS, bounds_), Binding::ofTexels(LIGHT_CORE_TEXELS, in.core),
+         Binding::of(LIGHT_CORE, in.core), shadowCounters},
+        surfaces);
+    surfaces.add(in.gbuffer.bindings());
     Binding askCounters = shadowCounters;
     askCounters.binding = ASK_PAIRS_SHADOW_COUNTERS;
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
@@ -177,14 +187,17 @@ void Shadows::writeBindings(const FramePlan& plan, const Inputs& in) const
                                  Binding::of(ASK_PAIRS_ENTRIES, clusters_.entries()),
                                  Binding::of(ASK_PAIRS_UNLISTED, lists.unlisted),
                                  Binding::of(ASK_PAIRS_COUNTERS, in.counters), askCounters,
-                                 Binding::of(ASK_PAIRS_RECORDS, records_), pageSlots()});
+                                 Binding::of(ASK_PAIRS_ASKED, asked_),
+                                 Binding::of(ASK_PAIRS_BOUNDS, bounds_),
+                                 Binding::sampled(ASK_PAIRS_DEPTH, in.gbuffer.depth),
+                                 in.uniforms.at(slot), pageSlots(), view(slot)});
         visibilitySets_.write(
             set,
             {Binding::ofTexels(LIGHT_CORE_TEXELS, in.core), Binding::of(LIGHT_CORE, in.core),
              Binding::of(SHADE_SHAPES, in.shapes), Binding::of(SHADE_LIGHT_IDS, in.ids),
              Binding::sampled(SHADE_DEPTH, in.gbuffer.depth), in.uniforms.at(slot),
              Binding::ofTexels(SHADE_DFG, in.albedoTable),
-             Binding::of(SHADE_TILES, clusters_.tiles()), Binding::of(VISIBILITY_RECORDS, records_),
+             Binding::of(SHADE_TILES, clusters_.tiles()), Binding::of(VISIBILITY_ASKED, asked_),
              shadowCounters, this->slots()},
             surfaces);
         countSets_.write(
@@ -224,8 +237,11 @@ void Shadows::recordPolygons(const gpu::Frame& f, const FramePlan& p) const noex
 
 void Shadows::recordListed(const gpu::Frame& f, const FramePlan& p, uint32_t type) const noexcept
 {
-    const gpu::WorkList none{.groupsX = gpu::ASK_ROW, .groupsY = 0, .groupsZ = 1};
-    f.device.CmdUpdateBuffer(f.cmd, records_.get(), 0, sizeof none, &none);
+    gpu::AskedPairs none{};
+    none.records = {.groupsX = gpu::ASK_ROW / gpu::LIST_OCCLUDERS_GROUP, .groupsZ = 1};
+    for (gpu::WorkList& kind : none.kinds)
+        kind = {.groupsX = gpu::ASK_ROW, .groupsZ = 1};
+    f.device.CmdUpdateBuffer(f.cmd, asked_.get(), 0, sizeof none, &none);
     f.barrier();
     const uint32_t tiles = p.tileCount.x * p.tileCount.y;
     module_.kernels.askPairs.dispatchInRows(f, askSets_.set(setOf(f, type)),
@@ -234,11 +250,23 @@ void Shadows::recordListed(const gpu::Frame& f, const FramePlan& p, uint32_t typ
                                              .splitCapacity = clusters_.splitCapacity(),
                                              .capacity = capacity_,
                                              .lightType = type},
-                                            tiles + clusters_.splitCapacity() * gpu::SLICES);
+                                            tiles);
     f.barrier();
-    module_.kernels.shade.visibility(type).dispatchIndirect(
-        f, visibilitySets_.set(setOf(f, type)), {.batch = {0, 0}, .first = {0, 0}, .tileCountX = 0},
-        records_, 0);
+    module_.kernels.listOccluders.dispatchIndirect(
+        f, listSets_.set(f.slot),
+        {.capacity = capacity_,
+         .lightType = type,
+         .fromHost = module_.kernels.shade.pairKinds() == 1},
+        asked_, offsetof(gpu::AskedPairs, records));
+    f.barrier();
+    const gpu::UntimedFrame untimed(f); // the kinds are found at the same time
+    for (uint32_t kind = 0; kind < module_.kernels.shade.pairKinds(); ++kind)
+        module_.kernels.shade.visibility(type, kind)
+            .dispatchIndirect(
+                untimed, visibilitySets_.set(setOf(f, type)),
+                {.batch = {0, 0}, .first = {0, 0}, .tileCountX = 0, .capacity = capacity_}, asked_,
+                offsetof(gpu::AskedPairs, kinds) + kind * sizeof(gpu::WorkList));
+    f.timer.stamp(f.cmd, visibilitySets_.name());
     f.barrier();
 }
 
@@ -251,10 +279,11 @@ uint32_t Shadows::lightsPerBatch(glm::uvec2 tileCount) const noexcept
 void Shadows::recordBatch(const gpu::Frame& f, uint32_t type, const gpu::LightBatch& batch,
                           glm::uvec2 firstPixel, glm::uvec2 tileCount) const noexcept
 {
-    module_.kernels.shade.visibility(type).dispatch(
-        f, visibilitySets_.set(setOf(f, type)),
-        {.batch = batch, .first = firstPixel, .tileCountX = tileCount.x}, tileCount.x, tileCount.y,
-        batch.count);
+    module_.kernels.shade.visibility(type, gpu::PAIRS_WALKED)
+        .dispatch(
+            f, visibilitySets_.set(setOf(f, type)),
+            {.batch = batch, .first = firstPixel, .tileCountX = tileCount.x, .capacity = capacity_},
+            tileCount.x, tileCount.y, batch.count);
     f.barrier();
 }
 

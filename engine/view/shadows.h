@@ -73,9 +73,9 @@ private:
     const Clusters& clusters_;
     PreparedOccluders prepared_;
     uint32_t capacity_; // of slots that lists may take
-    gpu::Buffer slots_, records_, pageSlots_, points_, views_;
+    gpu::Buffer slots_, asked_, bounds_, pageSlots_, points_, views_;
     gpu::Bindings askSets_, visibilitySets_, countSets_; // per slot and type
-    gpu::Bindings polygonSets_;                          // per slot
+    gpu::Bindings listSets_, polygonSets_;               // per slot
 };
 
 } // namespace candelabra::lighting

@@ -198,6 +198,9 @@ CndResult View::stats(uint32_t slot, CndLightingStats& out) const noexcept
     out.shadowSlots = shadows.slots;
     out.missingShadowSlots = shadows.missingSlots;
     out.unfinishedPairs = shadows.unfinished;
+    out.litSlots = shadows.kinds[gpu::PAIRS_LIT];
+    out.listedSlots = shadows.kinds[gpu::PAIRS_LISTED];
+    out.walkedSlots = shadows.kinds[gpu::PAIRS_WALKED];
     FramePasses passes = plans_[slot].passes;
     passes.addFindings(c);
     passes.write(out.passes, out.passCount);

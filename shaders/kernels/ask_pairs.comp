@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Asks for the visibility of every light in the lists of tiles and slices: makes a record and gives
-// out a slot for each (shared/occluder_data.h). The lights of a page have consecutive slots. If a list
-// finds too few, it becomes one that has no page: its pixels walk the light tree.
+// out a slot for each (shared/occluder_data.h). The lights of a page have consecutive slots. If a
+// list finds too few, it becomes one that has no page: its pixels walk the light tree. Also finds
+// the bounds of the samples of these clusters.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shared/occluder_data.h"
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#include "kernels/common/frame_params.glsl"
+#include "lib/ordered_bits.glsl"
+#include "lib/tile_pixels.glsl"
+#include "lib/visibility/own_surface.glsl"
+#include "shading/shadow_view.glsl"
 
 layout(local_size_x = ASK_PAIRS_GROUP) in;
 layout(push_constant, scalar) uniform Push
@@ -44,16 +51,21 @@ layout(scalar, binding = ASK_PAIRS_UNLISTED) buffer Unlisted
     WorkList unlisted[TILE_WORK_LISTS];
     uint unlistedTiles[];
 };
-layout(scalar, binding = ASK_PAIRS_RECORDS) buffer Records
+layout(binding = ASK_PAIRS_DEPTH) uniform texture2D depthImage;
+layout(scalar, binding = ASK_PAIRS_BOUNDS) writeonly buffer Bounds
 {
-    WorkList asked;
-    AskRecord records[];
+    SampleBounds bounds[];
 };
 layout(scalar, binding = SHADOW_PAGE_SLOTS) writeonly buffer PageSlots
 {
     uint pageSlots[];
 };
 
+#define ASKED_PAIRS ASK_PAIRS_ASKED
+#define ASKED_ACCESS
+#include "kernels/common/asked_pairs.glsl"
+#include "kernels/common/cluster_of_depth.glsl"
+#include "kernels/common/depth_error.glsl"
 #include "kernels/common/tile_work_lists.glsl"
 
 // Appends a tile to the work lists of shade_unlisted, and counts the cluster.
@@ -65,39 +77,89 @@ void appendUnlisted(uint tile)
 
 shared uint firstSlot; // of the present page
 
-// Takes `count` slots and returns the first. Sets up the groups of pair_visibility that the records
+// Takes `count` slots and returns the first. Sets up the groups of list_occluders that the records
 // need.
 uint takeSlots(uint count)
 {
-    const uint first = atomicAdd(asked.count, count);
+    const uint first = atomicAdd(asked.records.count, count);
     if (first + count <= params.capacity) {
-        atomicMax(asked.groupsY, (first + count + ASK_ROW - 1u) / ASK_ROW);
-        atomicMax(asked.first, first + count);
+        atomicMax(asked.records.groupsY, (first + count + ASK_ROW - 1u) / ASK_ROW);
+        atomicMax(asked.records.first, first + count);
         atomicMax(shadowCounters.slots, first + count);
     } else
         atomicAdd(shadowCounters.missingSlots, count);
     return first;
 }
 
-void main()
+void writeRecord(uint slot, uint tile, uint cluster, uint light)
 {
-    const uint at = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    const uint at = placeOfRecord(slot);
+    askedWords[at] = tile;
+    askedWords[at + 1u] = cluster;
+    askedWords[at + 2u] = light;
+}
+
+// The lowest of each coordinate, of its negative, and of the own distance, as orderedBits().
+shared uint least[7];
+
+// All lanes of the group must call it. isSample: false: the lane has no value.
+void findLeast(uint what, float value, bool isSample)
+{
+    const uint lowest = subgroupMin(isSample ? orderedBits(value) : 0xFFFFFFFFu);
+    if (subgroupElect())
+        atomicMin(least[what], lowest);
+}
+
+// Finds the bounds of the cluster's samples. All lanes of the group must call it, each for a pixel.
+void findBounds(uint tile, uint cluster)
+{
+    const uint lane = gl_LocalInvocationIndex;
+    if (lane < 7u)
+        least[lane] = 0xFFFFFFFFu;
+    barrier();
+    const uvec2 pixel = firstPixelOfTile(tile, frameParams.size.x) + pixelOfLane(lane);
+    const bool inside = all(lessThan(pixel, frameParams.size));
+    const float depth = inside ? texelFetch(depthImage, ivec2(pixel), 0).x : frameParams.clearDepth;
+    const bool isSample = depth != frameParams.clearDepth && clusterOf(tile, depth) == cluster;
+    const vec3 position =
+        viewPosition(frameParams.projection, pixel, frameParams.invImageSize, depth);
+    const vec3 inTree = position * shadowView.viewFromTree;
+    for (uint k = 0u; k < 3u; ++k) {
+        findLeast(k, inTree[k], isSample);
+        findLeast(3u + k, -inTree[k], isSample);
+    }
+    const float depthError = depthErrorAt(pixel, depth, position);
+    findLeast(6u, ownSurfaceDistance(depthError, position, 0.0, mat3(0.0), vec3(0.0)), isSample);
+    barrier();
+    if (lane == 0u)
+        bounds[cluster] = SampleBounds(
+            vec3(floatOfOrdered(least[0]), floatOfOrdered(least[1]), floatOfOrdered(least[2])),
+            floatOfOrdered(least[6]),
+            -vec3(floatOfOrdered(least[3]), floatOfOrdered(least[4]), floatOfOrdered(least[5])));
+}
+
+// Returns the first page of the list of a tile (below params.tileCount) or slice, and its cluster.
+// LIST_EMPTY: it has no page.
+uint firstPage(uint at, out uint cluster)
+{
     const bool isSlice = at >= params.tileCount;
-    const uint slice = at - params.tileCount;
-    if (isSlice && slice >= min(splits.count, params.splitCapacity) * SLICES)
-        return;
-    const uint cluster = isSlice ? params.firstSplit + slice : at;
+    cluster = isSlice ? params.firstSplit + at - params.tileCount : at;
     if (!isSlice && (tiles[at].shift != UNSPLIT || tiles[at].lowest > tiles[at].highest))
-        return;
+        return LIST_EMPTY;
     if (clusters[cluster].min.x > clusters[cluster].max.x) // an empty slice, which has no list
-        return;
-    uint page = lists[cluster];
-    if (page == LIST_EMPTY || page == LIST_UNLISTED || page == LIST_LONG)
-        return;
+        return LIST_EMPTY;
+    const uint page = lists[cluster];
+    return page == LIST_UNLISTED || page == LIST_LONG ? LIST_EMPTY : page;
+}
+
+// Asks for the lights of a list that has pages. All lanes of the group must call it.
+void askForLights(uint cluster, uint page)
+{
     const uint lane = gl_LocalInvocationIndex;
     const uint tile = clusters[cluster].tile;
+    findBounds(tile, cluster);
     bool fits = true;
-    while (page != 0u) {
+    do {
         const uint header = entries[page * PAGE_WORDS];
         const uint count = header & ((1u << PAGE_COUNT_BITS) - 1u);
         if (lane == 0u) {
@@ -108,12 +170,28 @@ void main()
         const uint first = firstSlot;
         fits = fits && first + count <= params.capacity;
         if (fits && lane < count)
-            records[first + lane] = AskRecord(tile, cluster, entries[page * PAGE_WORDS + 1u + lane]);
+            writeRecord(first + lane, tile, cluster, entries[page * PAGE_WORDS + 1u + lane]);
         page = header >> PAGE_COUNT_BITS;
         barrier(); // before firstSlot is written again
-    }
+    } while (page != 0u);
     if (!fits && lane == 0u) {
         lists[cluster] = LIST_UNLISTED;
         appendUnlisted(tile);
     }
+}
+
+// Each group takes a tile and, if there are more slices than tiles, several slices.
+void main()
+{
+    const uint end = params.tileCount + min(splits.count, params.splitCapacity) * SLICES;
+    uint at = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    if (at >= params.tileCount)
+        return;
+    do {
+        uint cluster;
+        const uint page = firstPage(at, cluster);
+        if (page != LIST_EMPTY)
+            askForLights(cluster, page);
+        at += params.tileCount;
+    } while (at < end);
 }

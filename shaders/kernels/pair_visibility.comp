@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds which share of a light the pixels of a tile see between the occluders. A group of lanes takes a
-// pair of tile or slice and light, and each lane a pixel. All lanes walk for the same light.
+// Finds which share of a light the pixels of a tile see between the occluders. A group of lanes
+// takes a pair of tile or slice and light, and each lane a pixel. All lanes walk for the same
+// light.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernels/common/shade_receiver.glsl"
@@ -17,11 +18,9 @@ layout(scalar, binding = SHADE_TILES) readonly buffer Tiles
 {
     TileClusters tiles[];
 };
-layout(scalar, binding = VISIBILITY_RECORDS) readonly buffer Records
-{
-    WorkList asked;
-    AskRecord records[];
-};
+#define ASKED_PAIRS VISIBILITY_ASKED
+#define ASKED_ACCESS readonly
+#include "kernels/common/asked_pairs.glsl"
 layout(scalar, binding = SHADOW_SLOTS) writeonly buffer Slots
 {
     uint slots[];
@@ -33,8 +32,34 @@ layout(scalar, binding = SHADE_COUNTERS) buffer Counters
 };
 
 #define QUEUE_LANES (TILE_SIZE * TILE_SIZE)
-#include "shading/light_visibility.glsl"
+#include "kernels/common/cluster_of_depth.glsl"
 #include "kernels/common/depth_error.glsl"
+#include "shading/light_visibility.glsl"
+
+layout(constant_id = SPEC_PAIR_KIND) const uint pairKind = PAIRS_WALKED;
+
+#ifdef CANDELABRA_VISIBLE_POINTS
+uint listedShares(AskRecord ask, ShadingPoint p, float depthError, bool asks)
+{
+    return SHARES_UNASKED; // no pair is listed
+}
+#else
+OccluderItem occluderItem(uint item)
+{
+    const uint at = placeOfItem(item);
+    return OccluderItem(askedWords[at], askedWords[at + 1u]);
+}
+#include "shading/listed_occluders.glsl"
+
+// Returns the visible shares of a pair that is listed.
+uint listedShares(AskRecord ask, ShadingPoint p, float depthError, bool asks)
+{
+    const uvec2 seen = listedPoints(occluderQuery(ask.light, p, depthError), treeSpace(),
+                                    ask.items >> ITEM_COUNT_BITS,
+                                    ask.items & ((1u << ITEM_COUNT_BITS) - 1u), asks);
+    return asks ? sharesOfPoints(ask.light, p, seen) : SHARES_UNASKED;
+}
+#endif
 
 void main()
 {
@@ -45,27 +70,33 @@ void main()
     if (ofBatch) {
         const uint tile = gl_WorkGroupID.y * params.tileCountX + gl_WorkGroupID.x;
         slot = tile * params.batch.count + gl_WorkGroupID.z;
-        ask = AskRecord(0u, 0u, params.batch.first + gl_WorkGroupID.z);
+        ask = AskRecord(0u, 0u, params.batch.first + gl_WorkGroupID.z, 0u);
         pixel += params.first + TILE_SIZE * gl_WorkGroupID.xy;
     } else {
-        slot = gl_WorkGroupID.y * ASK_ROW + gl_WorkGroupID.x;
-        if (slot >= asked.first)
+        const uint at = gl_WorkGroupID.y * ASK_ROW + gl_WorkGroupID.x;
+        if (at >= asked.kinds[pairKind].count)
             return;
-        ask = records[slot];
+        slot = askedWords[placeOfSlot(pairKind, at)];
+        ask = askRecord(slot);
         pixel += firstPixelOfTile(ask.tile, frameParams.size.x);
     }
     const bool inside = all(lessThan(pixel, frameParams.size));
-    const float depth =
-        inside ? texelFetch(depthImage, ivec2(pixel), 0).x : frameParams.clearDepth;
+    const float depth = inside ? texelFetch(depthImage, ivec2(pixel), 0).x : frameParams.clearDepth;
     bool asks = depth != frameParams.clearDepth;
     if (!ofBatch)
-        asks = asks && tiles[ask.tile].first + ((depthBits(depth) - tiles[ask.tile].lowest) >>
-                                                 tiles[ask.tile].shift) == ask.cluster;
+        asks = asks && clusterOf(ask.tile, depth) == ask.cluster;
     const ShadingPoint p = readShadingPoint(min(pixel, frameParams.size - 1u), depth);
     asks = asks && reachesPoint(ask.light, p);
-    bool isFinished;
-    slots[slot * SLOT_WORDS + gl_LocalInvocationIndex] =
-        lightVisibility(ask.light, p, depthErrorAt(pixel, depth, p.position), asks, isFinished);
+    const float depthError = depthErrorAt(pixel, depth, p.position);
+    bool isFinished = true;
+    uint shares;
+    if (pairKind == PAIRS_LIT)
+        shares = asks ? SHARES_LIT : SHARES_UNASKED;
+    else if (pairKind == PAIRS_LISTED)
+        shares = listedShares(ask, p, depthError, asks);
+    else
+        shares = lightVisibility(ask.light, p, depthError, asks, isFinished);
+    slots[slot * SLOT_WORDS + gl_LocalInvocationIndex] = shares;
     if (!isFinished)
         atomicAdd(shadowCounters.unfinished, 1u);
 }

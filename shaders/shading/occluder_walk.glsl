@@ -11,6 +11,7 @@
 #extension GL_KHR_shader_subgroup_vote : require
 #include "lib/visibility/box_tests.glsl"
 #include "lib/visibility/triangle_points.glsl"
+#include "shading/occluder_leaf.glsl"
 #include "shading/point_count.glsl"
 #include "shared/occluder_data.h"
 
@@ -79,22 +80,6 @@ struct OccluderWalk {
     FrontSurface front;
     WalkSpace space;
 };
-
-uint leafCount(uint leaf)
-{
-    return leaf & OCCLUDER_LEAF_COUNT;
-}
-
-uint leafFirst(uint leaf)
-{
-    return leaf >> OCCLUDER_LEAF_SHIFT;
-}
-
-// Returns the leaf without its first item.
-uint withoutFirst(uint leaf)
-{
-    return leaf + (1u << OCCLUDER_LEAF_SHIFT) - 1u;
-}
 
 // The walk before its first step: at the end of a mesh.
 OccluderWalk walkFromRoot()

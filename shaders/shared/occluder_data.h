@@ -107,10 +107,47 @@ struct AskRecord {
     uint tile;
     uint cluster;
     uint light;
+    uint items; // PAIRS_LISTED: index of the first item << ITEM_COUNT_BITS, plus how many there are
 };
-GPU_SIZE(AskRecord, 12)
+GPU_SIZE(AskRecord, 16)
+const uint RECORD_WORDS = 4u;
+const uint RECORD_ITEMS = 3u; // word of AskRecord::items
+const uint ITEM_COUNT_BITS = 5u;
+// Triangles that may shadow samples of a cluster.
+struct OccluderItem {
+    uint instance;
+    uint triangles; // as OccluderNode::leaf
+};
+GPU_SIZE(OccluderItem, 8)
+const uint ITEM_WORDS = 2u;
+// How pair_visibility finds a pair, as list_occluders decides: specialisation constant.
+const uint SPEC_PAIR_KIND = 11u;
+const uint PAIRS_WALKED = 0u; // from the root of the tree over instances
+const uint PAIRS_LISTED = 1u; // the pair's items hold all triangles that count
+const uint PAIRS_LIT = 2u;    // no triangle shadows the cluster
+const uint PAIR_KINDS = 3u;
+// The head of the buffer of asked pairs. After it are the AskRecords, for each kind the slots of
+// its pairs, and the items (kernels/common/asked_pairs.glsl).
+struct AskedPairs {
+    WorkList records; // WorkList::count also counts slots that there were not; all records
+                      //   before WorkList::first are written
+    WorkList kinds[PAIR_KINDS]; // a group per pair
+    uint items;                 // also counts items that there was no room for
+};
+GPU_SIZE(AskedPairs, 84)
+const uint ITEMS_PER_SLOT = 4u;                                 // for which there is room
+// Words per slot, after AskedPairs.
+const uint ASKED_WORDS = RECORD_WORDS + PAIR_KINDS + ITEM_WORDS * ITEMS_PER_SLOT;
+
+// Bounds of the samples of a cluster in the axes of the world, relative to the eye, in metres.
+struct SampleBounds {
+    vec3 low;
+    float ownDistance; // that part of the least ownSurfaceDistance() that depends on no instance
+    vec3 high;
+};
+GPU_SIZE(SampleBounds, 28)
 const uint SLOT_WORDS = 64u;
-const uint ASK_ROW = 1024u; // groups of pair_visibility in a row, one per record
+const uint ASK_ROW = 1024u; // pairs that a row of groups takes
 // Lights whose shares a lane finds before it evaluates them, if it walks for itself. The shares of
 // more would occupy too many registers.
 const uint SHADOW_BLOCK = 16u;
@@ -126,12 +163,12 @@ struct ShadowCounters {
     uint missingSlots;
     uint slots;      // the most that one light type took
     uint unfinished; // pairs
-    uint unused;
+    uint kinds[PAIR_KINDS]; // how many pairs of cluster and light are of each kind
     uvec2 asked; // 64 bit: low, high
     uvec2 partly;
     uvec2 dark;
 };
-GPU_SIZE(ShadowCounters, 40)
+GPU_SIZE(ShadowCounters, 48)
 
 // --- polygon_facets: which rectangle stands for a polygon, one lane per polygon
 const uint POLYGON_FACETS_GROUP = 64u;
@@ -144,7 +181,7 @@ struct PolygonFacetsParams {
 };
 GPU_SIZE(PolygonFacetsParams, 8)
 
-// --- ask_pairs: makes a record of each light in a tile's or slice's list, one group per cluster
+// --- ask_pairs: makes a record of each light in a tile's or slice's list, one group per tile
 const uint ASK_PAIRS_GROUP = 64u;
 const uint ASK_PAIRS_CLUSTERS = 0u;
 const uint ASK_PAIRS_TILES = 1u;
@@ -154,9 +191,9 @@ const uint ASK_PAIRS_ENTRIES = 4u;
 const uint ASK_PAIRS_UNLISTED = 5u;
 const uint ASK_PAIRS_COUNTERS = 6u;
 const uint ASK_PAIRS_SHADOW_COUNTERS = 7u;
-// A WorkList, then AskRecords. WorkList::count also counts slots that there were not; all records
-// before WorkList::first are written.
-const uint ASK_PAIRS_RECORDS = 8u;
+const uint ASK_PAIRS_ASKED = 8u; // AskedPairs
+const uint ASK_PAIRS_DEPTH = 9u;
+const uint ASK_PAIRS_BOUNDS = 10u; // SampleBounds per cluster
 struct AskPairsParams {
     uint tileCount;
     uint firstSplit, splitCapacity; // as in TileClustersParams
@@ -165,16 +202,29 @@ struct AskPairsParams {
 };
 GPU_SIZE(AskPairsParams, 20)
 
+// --- list_occluders: lists the triangles that may shadow the samples of a cluster from a light,
+// one lane per record. Bindings are as in shade_tiles, and:
+const uint LIST_OCCLUDERS_GROUP = 64u;
+const uint LIST_OCCLUDERS_ASKED = 10u;  // AskedPairs
+const uint LIST_OCCLUDERS_BOUNDS = 11u; // SampleBounds per cluster
+struct ListOccludersParams {
+    uint capacity; // as in AskPairsParams
+    uint lightType;
+    uint fromHost; // 1: the host finds the points, and all pairs are PAIRS_WALKED
+};
+GPU_SIZE(ListOccludersParams, 12)
+
 // --- pair_visibility: the visible shares of a light at the pixels of a tile, one group per pair.
-// The pairs are those of the records, or those of all tiles and the lights of a batch, whose slots
+// The pairs are those of a kind, or those of all tiles and the lights of a batch, whose slots
 // follow one another tile by tile. Other bindings are as in shade_tiles.
-const uint VISIBILITY_RECORDS = 10u;
+const uint VISIBILITY_ASKED = 10u; // AskedPairs
 struct PairVisibilityParams {
-    LightBatch batch; // the lights at every tile; a count of 0: the pairs are those of the records
+    LightBatch batch; // the lights at every tile; a count of 0: the pairs are those of the kind
     uvec2 first;      // with a batch: first pixel of the first tile
     uint tileCountX;  // with a batch: tiles in a row
+    uint capacity;    // as in AskPairsParams
 };
-GPU_SIZE(PairVisibilityParams, 20)
+GPU_SIZE(PairVisibilityParams, 24)
 
 // --- count_shadows: counts what pair_visibility has found, 8x8 pixels per group. Bindings are as
 // in count_pairs.

@@ -184,6 +184,8 @@ TEST_F(VisibilityFrames, ListsTreesAndBruteForceGiveTheSame)
         EXPECT_EQ(s.missingShadowSlots, 0u) << type;
         EXPECT_EQ(s.unfinishedPairs, 0u) << type;
         EXPECT_EQ(s.unlistedClusters, 0u) << type;
+        EXPECT_EQ(s.litSlots + s.listedSlots + s.walkedSlots, s.shadowSlots) << type;
+        EXPECT_EQ(s.listedSlots > 0, !cndIsDistant(type)) << type;
         const LightingResult unlisted = draw(lights, {.shadowBudget = 4096});
         if (!cndIsDistant(type)) {
             EXPECT_GT(unlisted.stats.unlistedClusters, 0u) << type;
@@ -208,6 +210,56 @@ TEST_F(VisibilityFrames, ListsTreesAndBruteForceGiveTheSame)
         RunOptions off;
         off.withFrame = [](CndLightingFrame& frame) { frame.shadowsOff = VK_TRUE; };
         EXPECT_GT(maxRelativeDifference(draw(lights, off).radiance, listed.radiance), 1e-3) << type;
+    }
+}
+
+// Lists leave out no triangle, however instances are stretched, large, thin or far from the origin
+// of their mesh.
+TEST_F(VisibilityFrames, ListsKeepTheBitsOfOddOccluders)
+{
+    // The ground, slivers of 10 m, and triangles of 0.5 m.
+    std::vector<float> ground = {-1e4f, 0, -1e4f, 1e4f, 0, -1e4f, 0, 0, 2e4f}, slivers, small;
+    random_.seed(4);
+    for (int i = 0; i < 20; ++i) {
+        const auto add = [](std::vector<float>& to, double x, double y, double z) {
+            for (const double at : {x, y, z})
+                to.push_back(float(at));
+        };
+        const double x = uniform(-3, 3), y = uniform(-2, 2);
+        add(slivers, x, y, -10);
+        add(slivers, x + 1e-3, y, -10);
+        add(slivers, x + uniform(-1, 1), y + uniform(-1, 1), 0);
+        for (int corner = 0; corner < 3; ++corner) // the origin of this mesh is 2 km away
+            add(small, 2000 + uniform(-3, 3), uniform(-2, 2), uniform(-11, -5));
+    }
+    const double rows[][12] = {{1, 0, 0, 0, 0, 1, 0, -3, 0, 0, 1, 0}, // below all
+                               {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}, // a mirror
+                               {0.6, 0, 0.8, -1194, 0, 1, 0, 0, -0.8, 0, 0.6, 1596},
+                               {100, 0, 0, -200000, 0, 0.01, 0, 1, 0, 0, 1, 0}};
+    const std::vector<float>* positions[] = {&ground, &slivers, &small, &small};
+    for (size_t i = 0; i < std::size(rows); ++i) {
+        const CndOccluderMesh mesh{.positions = positions[i]->data(),
+                                   .vertexCount = uint32_t(positions[i]->size() / 3),
+                                   .triangleCount = uint32_t(positions[i]->size() / 9)};
+        CndOccluderInstance instance{};
+        std::ranges::copy(rows[i], instance.worldFromMesh);
+        CndError error{};
+        ASSERT_EQ(cndAddOccluderMeshes(lighting(), 1, &mesh, &meshes_.emplace_back(), &error),
+                  CND_SUCCESS)
+            << error.message;
+        instance.mesh = meshes_.back();
+        ASSERT_EQ(cndAddOccluders(lighting(), 1, &instance, &occluders_.emplace_back(), &error),
+                  CND_SUCCESS)
+            << error.message;
+    }
+    for (const CndLightType type :
+         {CND_LIGHT_SPHERE, CND_LIGHT_TUBE, CND_LIGHT_RECTANGLE, CND_LIGHT_POLYGON}) {
+        const auto lights = lightsOf(type, surfaces, 25, type + 1);
+        const LightingResult listed = draw(lights, {.countPairs = true});
+        const LightingResult walked = draw(lights, {.shadowBudget = 4096});
+        EXPECT_GT(listed.stats.listedSlots, 50u) << type;
+        EXPECT_GT(listed.stats.partlyLitPairs, 500u) << type;
+        EXPECT_TRUE(agree(listed.radiance, walked.radiance)) << type;
     }
 }
 
@@ -373,8 +425,8 @@ TEST_F(VisibilityFrames, PassesOfShadowsBelongToModulesWithShadows)
         passes(run(surfaces, lights, {.specular = CND_SPECULAR_CONIC}));
     std::set<std::string> with = passes(draw(lights));
     EXPECT_EQ(without.size(), 16u);
-    for (const char* name :
-         {"prepare_occluders", "polygon_facets", "ask_pairs", "pair_visibility", "count_shadows"})
+    for (const char* name : {"prepare_occluders", "polygon_facets", "ask_pairs", "list_occluders",
+                             "pair_visibility", "count_shadows"})
         EXPECT_EQ(with.erase(name), 1u) << name;
     EXPECT_EQ(with, without);
 }

@@ -105,6 +105,22 @@ uint64_t hiddenPoints(const LightFacet& facet, const OccludingMesh& mesh, const 
     return facet.members & ~Visibility::bitsOf(lit);
 }
 
+bool leavesOut(const Shaft& shaft, const OccludingMesh& mesh, const Triangle& t)
+{
+    Visibility shaders(64);
+    const mat3 localFromWorld = glm::inverse(mesh.worldFromLocal);
+    const Visibility::ShaftEnds ends{.middle = 0.5 * (shaft.low + shaft.high),
+                                     .halfBox = 0.5 * (shaft.high - shaft.low),
+                                     .ball = shaft.ball,
+                                     .radius = shaft.radius,
+                                     .rounding = 0,
+                                     .ownDistance = shaft.ownDistance};
+    const vec3 low = min(t[0], min(t[1], t[2])), high = max(t[0], max(t[1], t[2]));
+    const auto local = shaders.shaftIn(ends, localFromWorld, vec3(0.0), 3.0, low, high);
+    return !shaders.shaftTouches(local, low, high) ||
+           shaders.isBehindAll(local, ends, 0, localFromWorld, t[0], t[1], t[2]);
+}
+
 glm::dvec2 visibleShares(const LightFacet& facet, uint64_t lit, const Receiver& receiver)
 {
     Visibility shaders(facet.count);

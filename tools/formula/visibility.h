@@ -49,6 +49,17 @@ struct OccludingMesh {
 uint64_t hiddenPoints(const LightFacet& facet, const OccludingMesh& mesh, const Receiver& receiver,
                       double ownDistance = 0);
 
+// Samples in a box, and a ball, in the world.
+struct Shaft {
+    glm::dvec3 low, high; // of the box
+    glm::dvec3 ball;
+    double radius = 0;
+    double ownDistance = 0; // metres
+};
+// Tells whether list_occluders leaves out a triangle because it hides no point of the ball from any
+// sample.
+bool leavesOut(const Shaft& shaft, const OccludingMesh& mesh, const Triangle& triangle);
+
 // Returns the visible shares of the diffuse and of the specular response. `lit`: visible points.
 glm::dvec2 visibleShares(const LightFacet& facet, uint64_t lit, const Receiver& receiver);
 

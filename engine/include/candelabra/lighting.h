@@ -200,7 +200,7 @@ typedef struct CndLightingViewDesc {
     VkDeviceSize listBudget;
     // Bytes for what pixels see of lights, with CndLightingDesc::shadows; 0: default, 128 MiB (less
     // if the device's maxStorageBufferRange is smaller). Every light on the list of a cluster takes
-    // 256 of them, and 12 more beside the budget. Clusters for which there is no room are shaded by
+    // 256 of them, and 60 more beside the budget. Clusters for which there is no room are shaded by
     // walking the light tree, as those without a list. At least 256 bytes per 8x8 pixel tile of the
     // largest frame are allocated, but lists use no more than the budget.
     VkDeviceSize shadowBudget;
@@ -367,6 +367,11 @@ typedef struct CndLightingStats {
     // unlistedClusters. A budget for the sum of both is enough, unless lists exceed listBudget.
     // Brute force and distant lights do not count.
     uint32_t shadowSlots, missingShadowSlots;
+    // How the slots of all light types were filled. litSlots: no occluder is between the cluster
+    // and the light. listedSlots: pixels test a list of the triangles that may be there.
+    // walkedSlots: these are too many for a list, or the light is too near, and pixels walk through
+    // the trees of the occluders.
+    uint32_t litSlots, listedSlots, walkedSlots;
     // On devices that limit loops: pairs whose search for occluders was cut off. They have fewer
     // shadows than they should.
     uint32_t unfinishedPairs;

@@ -9,7 +9,6 @@
 #include "shared/cluster_data.h"
 #include "shared/lighting_data.h"
 #include "lib/tile_pixels.glsl"
-#include "lib/projection.glsl"
 
 layout(constant_id = SPEC_TILE_CLASS) const uint tileClass = CLASS_ANY;
 layout(scalar, binding = SHADE_TILES) readonly buffer Tiles
@@ -26,11 +25,7 @@ layout(scalar, binding = SHADE_WORK) readonly buffer Work
     uint workTiles[];
 };
 
-// Returns the cluster of a sample with this depth.
-uint clusterOf(uint tile, float depth)
-{
-    return tiles[tile].first + ((depthBits(depth) - tiles[tile].lowest) >> tiles[tile].shift);
-}
+#include "kernels/common/cluster_of_depth.glsl"
 
 // Sets the tile of this workgroup and the pixel of this lane. Returns false after the last tile and
 // outside the image.

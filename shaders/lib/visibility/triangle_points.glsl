@@ -5,29 +5,11 @@
 #define CND_LIB_VISIBILITY_TRIANGLE_POINTS
 
 #include "lib/visibility/light_coordinates.glsl"
+#include "lib/visibility/own_surface.glsl"
 
 // Bound of the rounding of an edge condition, relative to the L1 norms of the edge's ends. Both
 // triangles of an edge count a point this near to it, so that closed surfaces leak no point.
 const float EDGE_SLACK = 2.384185791015625e-7; // 2^-22
-// Bound of the rounding of light coordinates and of instances' transforms in float32.
-const float PLANE_SLACK = 4.76837158203125e-7; // 2^-21
-
-// Returns the distance in metres up to which a triangle's plane counts as the receiver's own surface.
-// Such a triangle does not shadow the receiver.
-// depthError: half a step of the depth format, as a distance along the view ray.
-// position: of the receiver in view space; localPosition: in the space of the instance.
-// surfaceError: of the instance. viewFromLocal: linear part of its transform.
-float ownSurfaceDistance(float depthError, vec3 position, float surfaceError, mat3 viewFromLocal,
-                         vec3 localPosition)
-{
-    const vec3 fromOrigin = abs(localPosition);
-    const float rounding = length(viewFromLocal[0]) * fromOrigin.x +
-                           length(viewFromLocal[1]) * fromOrigin.y +
-                           length(viewFromLocal[2]) * fromOrigin.z;
-    return depthError + length(position) * 3.814697265625e-6 /* 2^-18 */ + surfaceError +
-           rounding * PLANE_SLACK;
-}
-
 // Each condition of a triangle is k.x u + k.y v + k.z >= 0, evaluated in this order. Rounding keeps the
 // order of sums, so a rejection of all points never contradicts the evaluation of one of them.
 bool rejectsAllPoints(vec3 k)

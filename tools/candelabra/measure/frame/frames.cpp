@@ -182,10 +182,11 @@ std::string shadowText(const CndLightingStats& stats, PixelSize size)
     const uint64_t asked = stats.askedPairs;
     std::string out = fmt::format(
         "shadows: a pixel asks for {} lights, and sees {} wholly, {} in part and {} not at all; "
-        "{} used",
+        "{} used; of those of all types, {} are lit, {} have lists and {} walk",
         perPixel(asked), perPixel(asked - stats.partlyLitPairs - stats.darkPairs),
         perPixel(stats.partlyLitPairs), perPixel(stats.darkPairs),
-        counted(stats.shadowSlots, "slot"));
+        counted(stats.shadowSlots, "slot"), grouped(stats.litSlots), grouped(stats.listedSlots),
+        grouped(stats.walkedSlots));
     if (stats.missingShadowSlots)
         out += fmt::format("; {} missing, whose pixels take longer", // a message says more
                            counted(stats.missingShadowSlots, "slot"));
@@ -239,6 +240,9 @@ Json toJson(const CndLightingStats& stats)
                           {"darkPairs", stats.darkPairs},
                           {"slots", stats.shadowSlots},
                           {"missingSlots", stats.missingShadowSlots},
+                          {"litSlots", stats.litSlots},
+                          {"listedSlots", stats.listedSlots},
+                          {"walkedSlots", stats.walkedSlots},
                           {"unfinishedPairs", stats.unfinishedPairs}};
     return out;
 }

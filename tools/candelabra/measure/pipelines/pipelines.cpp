@@ -73,6 +73,10 @@ std::string variantOf(const PipelineRequest& request)
         const auto found = constants.find(name);
         return found == constants.end() ? 0 : found->second;
     };
+    if (constants.contains("pairKind")) {
+        constexpr const char* kinds[gpu::PAIR_KINDS] = {"walked", "listed", "lit"};
+        return fmt::format("{} {}", lightTypeName(value("lightType")), kinds[value("pairKind")]);
+    }
     if (constants.contains("lightType")) {
         const uint32_t tileClass = value("tileClass");
         return fmt::format("{} {}{}", lightTypeName(value("lightType")),
