@@ -129,6 +129,7 @@ MeshTable::Built MeshTable::build(const OccluderMesh& mesh)
         out.mesh.corners.push_back(cornersOf(item.index));
         out.triangles.push_back(positions.triangle(out.mesh.corners.back()));
     }
+    out.mesh.neighbours = findNeighbours(out.triangles);
     out.mesh.nodeCount = uint32_t(out.nodes.size());
     out.mesh.triangleCount = mesh.triangleCount;
     out.mesh.vertexCount = mesh.vertexCount;
@@ -136,12 +137,10 @@ MeshTable::Built MeshTable::build(const OccluderMesh& mesh)
     return out;
 }
 
-// Makes room for the contents up to the end of all ranges. `changed` elements of them will be
-// written, in `count` ranges.
 template <typename T>
-void MeshTable::Pool<T>::reserve(VkDeviceSize changed, size_t count)
+void MeshTable::Pool<T>::reserve(size_t end, VkDeviceSize changed, size_t count)
 {
-    const size_t end = std::max<size_t>(ranges.end(), contents.size());
+    end = std::max(end, contents.size());
     gpu::reserveMore(contents, end - contents.size());
     buffer.reserve(end * sizeof(T), changed * sizeof(T), count);
 }
@@ -168,28 +167,31 @@ MeshTable::MeshTable(const gpu::Device& device, gpu::Recordings& recordings, uin
                         (VkDeviceSize(capacity) + instanceNodeCapacity) * sizeof(gpu::OccluderNode),
                         true}},
       triangles_{.buffer = {device, recordings, "occluder triangles",
-                            capacity * VkDeviceSize(sizeof(gpu::OccluderTriangle)), true}}
+                            capacity * VkDeviceSize(sizeof(gpu::OccluderTriangle)), true}},
+      neighbours_{.buffer = {device, recordings, "occluder neighbours",
+                             capacity * VkDeviceSize(sizeof(gpu::OccluderNeighbours))}}
 {
 }
 
 void MeshTable::giveBack(const Mesh& mesh) noexcept
 {
-    nodes_.ranges.give(mesh.firstNode, mesh.nodeCount);
-    triangles_.ranges.give(mesh.firstTriangle, mesh.triangleCount);
+    nodeRanges_.give(mesh.firstNode, mesh.nodeCount);
+    triangleRanges_.give(mesh.firstTriangle, mesh.triangleCount);
 }
 
 // Does everything in an addition that can fail, after the ranges have been taken.
 void MeshTable::makeRoom(std::span<const Built> built)
 {
-    requireRange(addCall, device_, nodes_.ranges.end(), sizeof(gpu::OccluderNode));
-    requireRange(addCall, device_, triangles_.ranges.end(), sizeof(gpu::OccluderTriangle));
+    requireRange(addCall, device_, nodeRanges_.end(), sizeof(gpu::OccluderNode));
+    requireRange(addCall, device_, triangleRanges_.end(), sizeof(gpu::OccluderTriangle));
     VkDeviceSize nodes = 0, triangles = 0;
     for (const Built& b : built) {
         nodes += b.nodes.size();
         triangles += b.triangles.size();
     }
-    nodes_.reserve(nodes, built.size());
-    triangles_.reserve(triangles, built.size());
+    nodes_.reserve(nodeRanges_.end(), nodes, built.size());
+    triangles_.reserve(triangleRanges_.end(), triangles, built.size());
+    neighbours_.reserve(triangleRanges_.end(), triangles, built.size());
 }
 
 void MeshTable::add(std::span<const OccluderMesh> meshes, OccluderMeshId* ids)
@@ -205,11 +207,11 @@ void MeshTable::add(std::span<const OccluderMesh> meshes, OccluderMeshId* ids)
         built.push_back(build(mesh));
     ids_.reserve(0, built.size());
     gpu::reserveMore(meshes_, built.size());
-    nodes_.ranges.reserve(built.size());
-    triangles_.ranges.reserve(built.size());
+    nodeRanges_.reserve(built.size());
+    triangleRanges_.reserve(built.size());
     for (Built& b : built) {
-        b.mesh.firstNode = nodes_.ranges.take(b.mesh.nodeCount);
-        b.mesh.firstTriangle = triangles_.ranges.take(b.mesh.triangleCount);
+        b.mesh.firstNode = nodeRanges_.take(b.mesh.nodeCount);
+        b.mesh.firstTriangle = triangleRanges_.take(b.mesh.triangleCount);
     }
     try {
         makeRoom(built);
@@ -222,6 +224,7 @@ void MeshTable::add(std::span<const OccluderMesh> meshes, OccluderMeshId* ids)
         Built& b = built[i];
         nodes_.write(b.mesh.firstNode, b.nodes);
         triangles_.write(b.mesh.firstTriangle, b.triangles);
+        neighbours_.write(b.mesh.firstTriangle, b.mesh.neighbours);
         ids[i] = ids_.add(0);
         const uint32_t slot = gpu::IdTable::slotOf(ids[i]);
         if (slot == meshes_.size())
@@ -234,26 +237,26 @@ void MeshTable::reserveInstanceNodes(uint32_t count)
 {
     const auto [first, present, used] = instanceNodes_;
     if (count <= present) {
-        nodes_.reserve(count, 1);
+        nodes_.reserve(nodeRanges_.end(), count, 1);
         instanceNodes_.used = count;
         return;
     }
-    nodes_.ranges.reserve(1);
+    nodeRanges_.reserve(1);
     const uint64_t most = device_.limits.maxStorageBufferRange / sizeof(gpu::OccluderNode);
     uint32_t room = std::max({count, present + present / 2, instanceNodeCapacity_});
-    if (uint64_t(nodes_.ranges.end()) + room > most)
+    if (uint64_t(nodeRanges_.end()) + room > most)
         room = count;
-    const uint32_t moved = nodes_.ranges.take(room);
+    const uint32_t moved = nodeRanges_.take(room);
     try {
-        requireRange("cndAddOccluders", device_, nodes_.ranges.end(), sizeof(gpu::OccluderNode));
-        nodes_.reserve(count, 1);
+        requireRange("cndAddOccluders", device_, nodeRanges_.end(), sizeof(gpu::OccluderNode));
+        nodes_.reserve(nodeRanges_.end(), count, 1);
         nodes_.contents.resize(std::max<size_t>(nodes_.contents.size(), moved + room));
     } catch (...) {
-        nodes_.ranges.give(moved, room);
+        nodeRanges_.give(moved, room);
         throw;
     }
     if (present)
-        nodes_.ranges.give(first, present);
+        nodeRanges_.give(first, present);
     instanceNodes_ = {moved, room, count};
     markInstanceNodes();
 }
@@ -266,15 +269,21 @@ void MeshTable::replacePositions(OccluderMeshId id, const float* positions, uint
     const Mesh& mesh = (*this)[id];
     const Positions from(positions, stride, mesh.vertexCount);
     from.check(std::string(call) + ": positions");
-    nodes_.reserve(VkDeviceSize(mesh.nodeCount) + instanceNodes_.used, 2);
-    triangles_.reserve(mesh.triangleCount, 1);
-    gpu::OccluderTriangle* const triangles = &triangles_.contents[mesh.firstTriangle];
+    nodes_.reserve(nodeRanges_.end(), VkDeviceSize(mesh.nodeCount) + instanceNodes_.used, 2);
+    triangles_.reserve(triangleRanges_.end(), mesh.triangleCount, 1);
+    neighbours_.reserve(triangleRanges_.end(), mesh.triangleCount, 1);
+    const std::span triangles =
+        std::span(triangles_.contents).subspan(mesh.firstTriangle, mesh.triangleCount);
     for (uint32_t i = 0; i < mesh.triangleCount; ++i)
         triangles[i] = from.triangle(mesh.corners[i]);
+    copyNeighboursThatMeet(
+        triangles, mesh.neighbours,
+        std::span(neighbours_.contents).subspan(mesh.firstTriangle, mesh.triangleCount));
     const std::span nodes = std::span(nodes_.contents).subspan(mesh.firstNode, mesh.nodeCount);
     fitTree(nodes, [&](uint32_t i) { return boxOf(triangles[i]); });
     nodes_.changed(mesh.firstNode, mesh.nodeCount);
     triangles_.changed(mesh.firstTriangle, mesh.triangleCount);
+    neighbours_.changed(mesh.firstTriangle, mesh.triangleCount);
 }
 
 void MeshTable::remove(std::span<const OccluderMeshId> ids)
@@ -296,6 +305,8 @@ void MeshTable::recordUpload(const gpu::Frame& frame, uint64_t recording) noexce
 {
     nodes_.buffer.recordUpload(frame, recording, std::as_bytes(std::span(nodes_.contents)));
     triangles_.buffer.recordUpload(frame, recording, std::as_bytes(std::span(triangles_.contents)));
+    neighbours_.buffer.recordUpload(frame, recording,
+                                    std::as_bytes(std::span(neighbours_.contents)));
 }
 
 } // namespace candelabra::lighting

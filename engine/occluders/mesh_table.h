@@ -9,6 +9,7 @@
 #include "gpu/id_table.h"
 #include "gpu/uploaded_buffer.h"
 #include "occluders/free_ranges.h"
+#include "occluders/neighbours.h"
 #include "occluders/occluder_input.h"
 #include "occluders/occluder_tree.h"
 
@@ -25,6 +26,7 @@ public:
         uint32_t users; // instances
         // The vertices of each triangle, in the order of the tree: positions may be replaced.
         std::vector<glm::uvec3> corners;
+        Neighbours neighbours; // of the triangles when the mesh was added
     };
 
     // `capacity`: triangles for which to make room. `instanceNodeCapacity`: the same for the nodes
@@ -67,21 +69,23 @@ public:
     // Everything that the device has after an upload.
     std::span<const gpu::OccluderNode> allNodes() const { return nodes_.contents; }
     std::span<const gpu::OccluderTriangle> allTriangles() const { return triangles_.contents; }
+    std::span<const gpu::OccluderNeighbours> allNeighbours() const { return neighbours_.contents; }
 
     bool isChanged() const { return nodes_.buffer.isChanged() || triangles_.buffer.isChanged(); }
     void recordUpload(const gpu::Frame& frame, uint64_t recording) noexcept;
     const gpu::Buffer& nodes() const { return nodes_.buffer.buffer(); }
     const gpu::Buffer& triangles() const { return triangles_.buffer.buffer(); }
+    const gpu::Buffer& neighbours() const { return neighbours_.buffer.buffer(); }
 
 private:
     // An array in which each mesh has a range.
     template <typename T>
     struct Pool {
         std::vector<T> contents{};
-        FreeRanges ranges{};
         gpu::UploadedBuffer buffer;
 
-        void reserve(VkDeviceSize changed, size_t count);
+        // Makes room for `end` elements. `changed` of them will be written, in `count` ranges.
+        void reserve(size_t end, VkDeviceSize changed, size_t count);
         void write(uint32_t first, std::span<const T> elements) noexcept;
         void changed(uint32_t first, size_t count) noexcept;
     };
@@ -102,8 +106,10 @@ private:
     } instanceNodes_;
     gpu::IdTable ids_;
     std::vector<Mesh> meshes_; // indexed by slot
+    FreeRanges nodeRanges_, triangleRanges_;
     Pool<gpu::OccluderNode> nodes_;
     Pool<gpu::OccluderTriangle> triangles_;
+    Pool<gpu::OccluderNeighbours> neighbours_; // as triangles_
 };
 
 } // namespace candelabra::lighting

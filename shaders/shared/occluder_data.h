@@ -36,6 +36,14 @@ struct OccluderTriangle {
 };
 GPU_SIZE(OccluderTriangle, 36)
 
+// The triangles of the same mesh on the other side of the edges from corner i to the next one: the
+// triangle's index << 1, plus 1 if its edge has the same direction, so that it is turned round.
+struct OccluderNeighbours {
+    uint edges[3];
+};
+GPU_SIZE(OccluderNeighbours, 12)
+const uint NO_NEIGHBOUR = 0xFFFFFFFFu; // the edge is one of the mesh's boundary, or of three triangles
+
 // An instance as the CPU sends it, at its place in the order of the tree over instances.
 struct OccluderRecord {
     mat3 worldFromLocal;

@@ -103,6 +103,7 @@ protected:
     {
         expectNodesOnDevice(set.meshes());
         expectOnDevice(set.meshes().triangles(), set.meshes().allTriangles());
+        expectOnDevice(set.meshes().neighbours(), set.meshes().allNeighbours());
         EXPECT_EQ(set.meshes().triangles().size % 16, 0u); // texels of four floats hold all of them
         expectOnDevice(set.instances().recordBuffer(), set.instances().records());
     }
