@@ -73,8 +73,8 @@ FOLDERS = [
     # The shaders' evaluation of lights and shadows in double precision. double_shaders.h contains shaders/shading
     # and everything that it includes, double_visibility.h shaders/lib/visibility.
     ("tools/formula", ["engine/shading/light_family.h", "engine/tables/point_table.h", "shaders/shared/conic_constants.h",
-                       "shaders/shared/light_type_list.h", "shaders/shared/lighting_data.h", PUBLIC, "double_shaders.h",
-                       "double_visibility.h"]),
+                       "shaders/shared/light_type_list.h", "shaders/shared/lighting_data.h",
+                       "shaders/shared/occluder_data.h", PUBLIC, "double_shaders.h", "double_visibility.h"]),
     # The folders that measure compare with the double-precision truth. Some of them may use internals of
     # the engine, so their lists name more of the engine than PUBLIC.
     ("tools/candelabra/measure/frame", ["tools/candelabra/render", "tools/candelabra/truth", "tools/candelabra/scene",

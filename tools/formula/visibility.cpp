@@ -121,6 +121,52 @@ bool leavesOut(const Shaft& shaft, const OccludingMesh& mesh, const Triangle& t)
            shaders.isBehindAll(local, ends, 0, localFromWorld, t[0], t[1], t[2]);
 }
 
+bool provesDarkness(const ReceiverBox& box, const Light& light, const OccludingMesh& mesh,
+                    std::span<const gpu::OccluderNeighbours> neighbours)
+{
+    Visibility shaders(64);
+    const Visibility::LightShape shape{vec3(light.shape.axisU), light.shape.radius,
+                                       vec3(light.shape.axisV), light.shape.flags};
+    Visibility::Shaft shaft{};
+    if (!shaders.shaftTo(box.half, light.type, light.centre - box.centre, light.boundingRadius,
+                         shape, shaft))
+        return false;
+    const mat3 localFromWorld = glm::inverse(mesh.worldFromLocal);
+    const vec3 centre = localFromWorld * box.centre;
+    const auto local = shaders.shaftInSpaceOf(shaft, localFromWorld, box.ownDistance);
+    const auto corner = [&](size_t triangle, uint32_t i) {
+        return mesh.triangles[triangle][i % 3] - centre;
+    };
+    const auto inView = [&](const vec3& a, const vec3& b, const vec3& c) {
+        return shaders.triangleInView(mesh.worldFromLocal, a, b, c);
+    };
+    const auto touches = [&](const vec3& a, const vec3& b, const vec3& c) {
+        return shaders.shaftTouchesBox(local, min(a, min(b, c)), max(a, max(b, c))) &&
+               !shaders.isBesideShaft(shaft, box.ownDistance, inView(a, b, c));
+    };
+    std::vector<uint> sides;
+    for (size_t t = 0; t < mesh.triangles.size(); ++t)
+        sides.push_back(shaders.planeSide(shaft, box.ownDistance,
+                                          inView(corner(t, 0), corner(t, 1), corner(t, 2))));
+    uint32_t crossings = 0;
+    for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const vec3 a = corner(t, 0), b = corner(t, 1), c = corner(t, 2);
+        if (sides[t] == shaders.PLANE_BESIDE || !touches(a, b, c))
+            continue;
+        if (sides[t] == shaders.PLANE_NEAR)
+            return false;
+        crossings += shaders.crossesTriangle(shaft, inView(a, b, c));
+        for (uint32_t edge = 0; edge < 3; ++edge)
+            if (shaders.isOpenEdge(sides[t], neighbours[t].edges[edge],
+                                   neighbours[t].edges[edge] == gpu::NO_NEIGHBOUR
+                                       ? shaders.PLANE_NEAR
+                                       : sides[neighbours[t].edges[edge] >> 1]) &&
+                touches(corner(t, edge), corner(t, edge + 1), corner(t, edge + 1)))
+                return false;
+    }
+    return crossings != 0;
+}
+
 glm::dvec2 visibleShares(const LightFacet& facet, uint64_t lit, const Receiver& receiver)
 {
     Visibility shaders(facet.count);

@@ -12,6 +12,7 @@
 #include <glm/vec3.hpp>
 
 #include "formula/formula.h"
+#include "shared/occluder_data.h"
 
 namespace candelabra::formula
 {
@@ -59,6 +60,16 @@ struct Shaft {
 // Tells whether list_occluders leaves out a triangle because it hides no point of the ball from any
 // sample.
 bool leavesOut(const Shaft& shaft, const OccludingMesh& mesh, const Triangle& triangle);
+// Receivers in a box, and how near to a triangle's plane it may be their own surface.
+struct ReceiverBox {
+    glm::dvec3 centre, half;
+    double ownDistance = 0;
+};
+// Returns whether a mesh is proven to hide all of a light from all receivers in the box, by the
+// steps of prove_dark.comp without its trees. `neighbours`: as findNeighbours() returns them for
+// the triangles of the mesh.
+bool provesDarkness(const ReceiverBox& box, const Light& light, const OccludingMesh& mesh,
+                    std::span<const gpu::OccluderNeighbours> neighbours);
 
 // Returns the visible shares of the diffuse and of the specular response. `lit`: visible points.
 glm::dvec2 visibleShares(const LightFacet& facet, uint64_t lit, const Receiver& receiver);

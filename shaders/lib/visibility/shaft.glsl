@@ -19,7 +19,7 @@ struct ShaftEnds {
 };
 
 // A shaft in the space of a tree.
-struct Shaft {
+struct ClusterShaft {
     vec3 low; // of the samples
     vec3 high;
     vec3 ball;
@@ -52,7 +52,7 @@ float lowestSine(ShaftEnds s, vec3 normal)
 }
 
 // Returns the largest distance of a point from the samples on each axis.
-vec3 farthestAlong(Shaft s, vec3 point)
+vec3 farthestAlong(ClusterShaft s, vec3 point)
 {
     return max(abs(point - s.low), abs(point - s.high));
 }
@@ -60,13 +60,13 @@ vec3 farthestAlong(Shaft s, vec3 point)
 // localFromTree, translation: the transform from the space of s.
 // anisotropy: product of the Frobenius norms of both directions of the transform, at least 3.
 // rootLow, rootHigh: box of the tree.
-Shaft shaftIn(ShaftEnds s, mat3 localFromTree, vec3 translation, float anisotropy, vec3 rootLow,
+ClusterShaft shaftIn(ShaftEnds s, mat3 localFromTree, vec3 translation, float anisotropy, vec3 rootLow,
               vec3 rootHigh)
 {
     const mat3 sizes = mat3(abs(localFromTree[0]), abs(localFromTree[1]), abs(localFromTree[2]));
     const vec3 middle = localFromTree * s.middle + translation;
     const vec3 halfBox = sizes * s.halfBox;
-    Shaft shaft;
+    ClusterShaft shaft;
     shaft.low = middle - halfBox;
     shaft.high = middle + halfBox;
     shaft.ball = localFromTree * s.ball + translation;
@@ -83,7 +83,7 @@ Shaft shaftIn(ShaftEnds s, mat3 localFromTree, vec3 translation, float anisotrop
     return shaft;
 }
 
-bool shaftTouches(Shaft s, vec3 boxMin, vec3 boxMax)
+bool shaftTouches(ClusterShaft s, vec3 boxMin, vec3 boxMax)
 {
     return coneTouches(s.cone, (boxMin - s.high) - s.slack, (boxMax - s.low) + s.slack);
 }
@@ -91,7 +91,7 @@ bool shaftTouches(Shaft s, vec3 boxMin, vec3 boxMax)
 // Returns whether the plane of a triangle has the ball and all samples on one side, so that it hides
 // nothing. Samples on the other side do not count if the plane is so near that they take it for their
 // own surface. localFromView: linear part of the transform.
-bool isBehindAll(Shaft s, ShaftEnds ends, float surfaceError, mat3 localFromView, vec3 a, vec3 b,
+bool isBehindAll(ClusterShaft s, ShaftEnds ends, float surfaceError, mat3 localFromView, vec3 a, vec3 b,
                  vec3 c)
 {
     const vec3 ab = b - a, ac = c - a;
