@@ -2,6 +2,7 @@
 #include "clusters/clusters.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "candelabra_shaders.h"
 #include "lights/light_limits.h"
@@ -30,6 +31,8 @@ static_assert(gpu::LIGHT_TREE_GROUP == gpu::TREE_WIDTH * gpu::TREE_WIDTH);
 // among the fastest in the hall, and takes up to 1.3 of the time without a limit in the fence
 // (DECISIONS 70).
 constexpr uint32_t longestBlockList = 1024;
+// The same where proofs may remove most of the lights (DECISIONS 82).
+constexpr uint32_t longestProvenList = 16384;
 
 uint32_t nodeCount(uint32_t lights)
 {
@@ -305,42 +308,64 @@ void Clusters::recordClusters(const gpu::Frame& f, glm::uvec2 tileCount, float s
     f.barrier();
 }
 
+std::pair<uint32_t, uint32_t> Clusters::blockClusters(glm::uvec2 tileCount) const
+{
+    return {firstOfBlocks(), area(blocksOf(tileCount)) * gpu::BLOCK_SLICES};
+}
+
+// The lists of blocks take at most half of the pages, so that tiles have the rest.
+uint32_t Clusters::blockPages() const
+{
+    return pageCount() / 2;
+}
+
+gpu::ClusterListsParams Clusters::listParams(uint32_t type, const gpu::TreeShape& tree,
+                                             glm::uvec2 tileCount) const noexcept
+{
+    const uint32_t loops = device_.maxLoopIterations;
+    return {.tree = tree,
+            .pageCount = pageCount(),
+            .maxSteps = loops == UINT32_MAX ? loops : loops / 4 * 3,
+            // In shade_unlisted the walks of four clusters may run one after the other, and the
+            // lights found are evaluated as well.
+            .maxUnlistedSteps = loops == UINT32_MAX ? loops : loops / 16,
+            .lightType = type,
+            .tileCountX = tileCount.x,
+            .tileCountY = tileCount.y,
+            .findsHeights = tileHeightsOf(device_, type) > 1};
+}
+
+void Clusters::recordMaking(const gpu::Frame& f, const gpu::ClusterListsParams& params,
+                            uint32_t lists) const noexcept
+{
+    kernels_.clusterLists.dispatchInRows(
+        f, listSets_.set(f.slot * CND_LIGHT_TYPE_COUNT + params.lightType), params,
+        listGroups(lists));
+}
+
+void Clusters::recordBlockLists(const gpu::Frame& f, uint32_t type, const gpu::TreeShape& tree,
+                                glm::uvec2 tileCount, bool forProofs) const noexcept
+{
+    gpu::ClusterListsParams params = listParams(type, tree, tileCount);
+    params.pageCount = blockPages();
+    params.longest = forProofs ? longestProvenList : longestBlockList;
+    params.which = gpu::LISTS_OF_BLOCKS;
+    std::tie(params.firstCluster, params.clusterCount) = blockClusters(tileCount);
+    recordMaking(f, params, params.clusterCount);
+}
+
 void Clusters::recordLists(const gpu::Frame& f, uint32_t type, const gpu::TreeShape& tree,
                            glm::uvec2 tileCount, uint32_t longest) const noexcept
 {
-    const gpu::Kernel<gpu::ClusterListsParams>& kernel = kernels_.clusterLists;
-    const VkDescriptorSet set = listSets_.set(f.slot * CND_LIGHT_TYPE_COUNT + type);
-    const uint32_t loops = device_.maxLoopIterations;
-    const uint32_t blockCount = area(blocksOf(tileCount));
-    gpu::ClusterListsParams params{.tree = tree,
-                                   .pageCount = pageCount() / 2,
-                                   .longest = longestBlockList,
-                                   .maxSteps = loops == UINT32_MAX ? loops : loops / 4 * 3,
-                                   // In shade_unlisted the walks of four clusters may run one
-                                   // after the other, and the lights found are evaluated as well.
-                                   .maxUnlistedSteps = loops == UINT32_MAX ? loops : loops / 16,
-                                   .lightType = type,
-                                   .which = gpu::LISTS_OF_BLOCKS,
-                                   .firstCluster = firstOfBlocks(),
-                                   .clusterCount = blockCount * gpu::BLOCK_SLICES,
-                                   .tileCountX = tileCount.x,
-                                   .tileCountY = tileCount.y,
-                                   .findsHeights = tileHeightsOf(device_, type) > 1};
-    const auto dispatch = [&](uint32_t lists) {
-        kernel.dispatchInRows(f, set, params, listGroups(lists));
-    };
-    dispatch(params.clusterCount);
-    f.barrier();
-    // The lists of blocks took at most half, so that tiles have the rest.
-    params.pageCount = pageCount();
+    gpu::ClusterListsParams params = listParams(type, tree, tileCount);
     params.longest = longest;
     params.which = gpu::LISTS_OF_TILES;
-    params.firstCluster = 0;
-    dispatch(blockCount * gpu::BLOCK_SIDE * gpu::BLOCK_SIDE);
+    recordMaking(f, params, area(blocksOf(tileCount)) * gpu::BLOCK_SIDE * gpu::BLOCK_SIDE);
     params.which = gpu::LISTS_OF_SLICES;
     params.firstCluster = firstSplit();
     params.clusterCount = splitCapacity_ * gpu::SLICES;
-    kernel.dispatchIndirect(f, set, params, splits_, sizeof(gpu::WorkList));
+    kernels_.clusterLists.dispatchIndirect(f, listSets_.set(f.slot * CND_LIGHT_TYPE_COUNT + type),
+                                           params, splits_, sizeof(gpu::WorkList));
 }
 
 } // namespace candelabra::lighting

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "gpu/recordings.h"
 #include "lights/light_types.h"
@@ -87,7 +88,11 @@ public:
     // the tiles that hold a surface. Tiles longer than `splitLength` metres are split into slices.
     void recordClusters(const gpu::Frame& frame, glm::uvec2 tileCount, float splitLength,
                         bool forLists) const noexcept;
-    // `longest`: number of lights in the longest list that shading can walk.
+    // Makes the lists of blocks. forProofs: most lights of long ones may be removed.
+    void recordBlockLists(const gpu::Frame& frame, uint32_t type, const gpu::TreeShape& tree,
+                          glm::uvec2 tileCount, bool forProofs) const noexcept;
+    // Makes the lists of tiles and slices from those of blocks. `longest`: number of lights in the
+    // longest list that shading can walk.
     void recordLists(const gpu::Frame& frame, uint32_t type, const gpu::TreeShape& tree,
                      glm::uvec2 tileCount, uint32_t longest) const noexcept;
 
@@ -107,6 +112,9 @@ public:
     uint32_t firstSplit() const { return maxTileCount(); }
     // The number of clusters of tiles and slices, which come before those of blocks.
     uint32_t firstOfBlocks() const { return firstSplit() + splitCapacity_ * gpu::SLICES; }
+    // The clusters of blocks: the first one, and how many.
+    std::pair<uint32_t, uint32_t> blockClusters(glm::uvec2 tileCount) const;
+    uint32_t blockPages() const; // of lists of blocks; at most
     const gpu::Buffer& entries() const { return entries_; }
     const gpu::Buffer& nodes() const { return nodes_; }
     const gpu::Buffer& splits() const { return splits_; }
@@ -129,6 +137,10 @@ private:
     VkDeviceSize tileWorkBytes(uint32_t heights) const;
     Lists createLists(uint32_t type) const;
     uint32_t listGroups(uint32_t lists) const noexcept;
+    gpu::ClusterListsParams listParams(uint32_t type, const gpu::TreeShape& tree,
+                                       glm::uvec2 tileCount) const noexcept;
+    void recordMaking(const gpu::Frame& frame, const gpu::ClusterListsParams& params,
+                      uint32_t lists) const noexcept;
 
     const gpu::Device& device_;
     const ClusterKernels& kernels_;

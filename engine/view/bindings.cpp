@@ -47,6 +47,9 @@ void View::writeBindings(const FramePlan& plan) const
                                        .ids = ids_,
                                        .albedoTable = albedoTable,
                                        .counters = counters_});
+    if (proofs_)
+        proofs_->writeBindings(
+            plan, {.uniforms = uniforms_, .core = core_, .shapes = shapes_, .counters = counters_});
     if (influence_)
         influence_->writeBindings(slot, {.gbuffer = images,
                                          .uniforms = uniforms_,

@@ -13,14 +13,15 @@ namespace
 
 // The name of each Pass, which is that of its kernel.
 constexpr std::array<const char*, passCount> names = {
-    "device_lights",  "light_order",     "dfg_table",         "prepare_lights", "prepare_occluders",
-    "polygon_facets", "project_depth",   "measure_influence", "cut_lights",     "tile_clusters",
-    "split_tiles",    "block_clusters",  "light_tree",        "cluster_lists",  "ask_pairs",
-    "list_occluders", "pair_visibility", "shade_tiles",       "shade_unlisted", "shade_brute",
-    "count_pairs",    "count_shadows"};
+    "device_lights",  "light_order",    "dfg_table",         "prepare_lights", "prepare_occluders",
+    "polygon_facets", "project_depth",  "measure_influence", "cut_lights",     "tile_clusters",
+    "split_tiles",    "block_clusters", "light_tree",        "cluster_lists",  "prove_dark",
+    "ask_pairs",      "list_occluders", "pair_visibility",   "shade_tiles",    "shade_unlisted",
+    "shade_brute",    "count_pairs",    "count_shadows"};
 
-constexpr Pass ofShadows[] = {Pass::PrepareOccluders, Pass::PolygonFacets,  Pass::AskPairs,
-                              Pass::ListOccluders,    Pass::PairVisibility, Pass::CountShadows};
+constexpr Pass ofShadows[] = {Pass::PrepareOccluders, Pass::PolygonFacets, Pass::ProveDark,
+                              Pass::AskPairs,         Pass::ListOccluders, Pass::PairVisibility,
+                              Pass::CountShadows};
 
 constexpr Pass clustering[] = {Pass::TileClusters, Pass::SplitTiles, Pass::BlockClusters,
                                Pass::LightTree, Pass::ClusterLists};
@@ -85,18 +86,21 @@ void FramePasses::skipShadows(const FrameContent& c)
     for (const Pass pass : ofShadows)
         if (c.shadowsOff)
             skip(pass, "shadowsOff");
-        else if (!c.occludersInLayers && (pass == Pass::PrepareOccluders || !c.hostFindsPoints))
+        else if (!c.occludersInLayers &&
+                 (pass == Pass::PrepareOccluders || pass == Pass::ProveDark || !c.hostFindsPoints))
             skip(pass, "no occluder of the view's layers");
     if (c.brute)
-        for (const Pass pass : {Pass::AskPairs, Pass::ListOccluders, Pass::CountShadows})
+        for (const Pass pass :
+             {Pass::ProveDark, Pass::AskPairs, Pass::ListOccluders, Pass::CountShadows})
             skip(pass, "brute force");
     if (!c.placedInView)
-        for (const Pass pass : {Pass::AskPairs, Pass::ListOccluders})
+        for (const Pass pass : {Pass::ProveDark, Pass::AskPairs, Pass::ListOccluders})
             skip(pass, "distant lights only");
     if (!c.polygons)
         skip(Pass::PolygonFacets, "no polygons");
     if (c.listsKept)
-        skip(Pass::PolygonFacets, "surfaces and lights unchanged");
+        for (const Pass pass : {Pass::PolygonFacets, Pass::ProveDark})
+            skip(pass, "surfaces and lights unchanged");
 }
 
 void FramePasses::skip(Pass pass, const char* reason)
@@ -112,8 +116,8 @@ void FramePasses::addFindings(const gpu::LightingCounters& counters)
         return;
     if (!surfaceTileCount(counters))
         for (const Pass pass :
-             {Pass::SplitTiles, Pass::AskPairs, Pass::ListOccluders, Pass::PairVisibility,
-              Pass::ShadeTiles, Pass::CountPairs, Pass::CountShadows})
+             {Pass::SplitTiles, Pass::ProveDark, Pass::AskPairs, Pass::ListOccluders,
+              Pass::PairVisibility, Pass::ShadeTiles, Pass::CountPairs, Pass::CountShadows})
             skip(pass, "no surface");
     if (listsAlone_ && !counters.listEntries)
         for (const Pass pass : {Pass::ListOccluders, Pass::PairVisibility, Pass::ShadeTiles})

@@ -25,6 +25,7 @@ enum class Pass : uint8_t {
     BlockClusters,
     LightTree,
     ClusterLists,
+    ProveDark,
     AskPairs,
     ListOccluders,
     PairVisibility,

@@ -28,6 +28,8 @@ Kernels::Kernels(const gpu::Device& device, const surfaces::HostKernels& host,
         polygonFacets = {device,
                          spirv::polygon_facets_comp,
                          {{gpu::SPEC_VISIBILITY_POINTS, desc.shadows.points}}};
+        askProofs = {device, spirv::ask_proofs_comp};
+        proveDark = {device, spirv::prove_dark_comp, {{gpu::SPEC_FOR_CPU, forCpu(device)}}};
         askPairs = {device, spirv::ask_pairs_comp};
         listOccluders = {device, spirv::list_occluders_comp, {{gpu::SPEC_FOR_CPU, forCpu(device)}}};
         for (uint32_t tileClass = 0; tileClass < shade.tileClasses(); ++tileClass)

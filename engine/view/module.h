@@ -32,6 +32,8 @@ struct Kernels {
     // Empty without CndLightingDesc::shadows.
     PreparedOccluders::Kernel prepareOccluders;
     gpu::Kernel<gpu::PolygonFacetsParams> polygonFacets;
+    gpu::Kernel<gpu::AskProofsParams> askProofs;
+    gpu::Kernel<gpu::NoParams> proveDark;
     gpu::Kernel<gpu::AskPairsParams> askPairs;
     gpu::Kernel<gpu::ListOccludersParams> listOccluders;
     gpu::Kernel<gpu::CountShadowsParams> countShadows[gpu::TILE_CLASSES];

@@ -85,8 +85,13 @@ bool View::keepsLists(const FramePlan& p)
     const CndLightingFrame& frame = p.frame;
     ListsKey key;
     if (frame.culling == CND_CULLING_CLUSTERED && module_.lights.count())
-        key = {module_.lights.number(), frame.specularMethod, p.params.sampleCount,
-               layersOf(frame.layers),  influenceOf(frame),   p.shadows};
+        key = {module_.lights.number(),
+               frame.specularMethod,
+               p.params.sampleCount,
+               layersOf(frame.layers),
+               influenceOf(frame),
+               p.shadows,
+               p.occluders ? module_.occluders->number() : 0};
     // Radii by error depend on light from elsewhere in the image too, and each frame measures them
     // at other pixels. So lists that are made with such radii are not kept.
     const bool same = frame.surfacesUnchanged && key.lightSet &&
@@ -147,7 +152,7 @@ void View::recordPasses(const gpu::Frame& f, const FramePlan& p, const FramePass
         recordInfluence(f, p);
     recordClusters(f, p, passes);
     if (passes.runs(Pass::ClusterLists))
-        recordLists(f, p);
+        recordLists(f, p, passes);
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         if (p.lights[type]) {
             if (passes.runs(Pass::ShadeTiles))
@@ -225,13 +230,30 @@ void View::recordTileCounts(const gpu::Frame& f) const noexcept
     count(clusters_.splits(), 0, offsetof(gpu::LightingCounters, splitTiles));
 }
 
-void View::recordLists(const gpu::Frame& f, const FramePlan& p) const noexcept
+void View::recordLists(const gpu::Frame& f, const FramePlan& p,
+                       const FramePasses& passes) const noexcept
 {
     const gpu::UntimedFrame u(f); // lists of one type may be made at the same time as of another
-    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
-        if (p.lights[type] && !isDistant(type))
-            clusters_.recordLists(u, type, p.trees[type], p.tileCount, lightsPerBatch(p, type));
-    f.timer.stamp(f.cmd, module_.kernels.clusters.clusterLists.name());
+    const char* const name = module_.kernels.clusters.clusterLists.name();
+    const bool proves = passes.runs(Pass::ProveDark);
+    const auto forEachType = [&](auto&& record) {
+        for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+            if (p.lights[type] && !isDistant(type))
+                record(type);
+    };
+    forEachType([&](uint32_t type) {
+        clusters_.recordBlockLists(u, type, p.trees[type], p.tileCount, proves);
+    });
+    if (proves) {
+        f.timer.stamp(f.cmd, name);
+        f.barrier();
+        proofs_->record(f, p);
+    }
+    f.barrier();
+    forEachType([&](uint32_t type) {
+        clusters_.recordLists(u, type, p.trees[type], p.tileCount, lightsPerBatch(p, type));
+    });
+    f.timer.stamp(f.cmd, name);
     f.barrier();
 }
 

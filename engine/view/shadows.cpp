@@ -144,9 +144,9 @@ std::array<Binding, 3> Shadows::occluderTexels() const
             bind(gpu::SHADOW_TRIANGLE_TEXELS, occluders.meshes().triangles())};
 }
 
-Binding Shadows::counters(const gpu::Buffer& counters)
+Binding Shadows::counters(const gpu::Buffer& counters, uint32_t binding)
 {
-    Binding out = Binding::of(gpu::SHADE_COUNTERS, counters);
+    Binding out = Binding::of(binding, counters);
     out.offset = gpu::SHADOW_COUNTERS_AT;
     return out;
 }
@@ -172,8 +172,7 @@ void Shadows::writeBindings(const FramePlan& plan, const Inputs& in) const
          Binding::of(LIGHT_CORE, in.core), shadowCounters},
         surfaces);
     surfaces.add(in.gbuffer.bindings());
-    Binding askCounters = shadowCounters;
-    askCounters.binding = ASK_PAIRS_SHADOW_COUNTERS;
+    const Binding askCounters = counters(in.counters, ASK_PAIRS_SHADOW_COUNTERS);
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
         if (!lights.typeCounts()[type])
             continue;

@@ -35,8 +35,9 @@ public:
     std::array<gpu::Binding, 5> occluderBindings(uint32_t slot) const;
     // The same buffers as texels. The forward set does not have them.
     std::array<gpu::Binding, 3> occluderTexels() const;
-    // The binding SHADE_COUNTERS of kernels that count shadows.
-    static gpu::Binding counters(const gpu::Buffer& counters);
+    // The binding of the gpu::ShadowCounters.
+    static gpu::Binding counters(const gpu::Buffer& counters,
+                                 uint32_t binding = gpu::SHADE_COUNTERS);
     gpu::Binding view(uint32_t slot) const;
     gpu::Binding slots() const { return gpu::Binding::of(gpu::SHADOW_SLOTS, slots_); }
     gpu::Binding pageSlots() const { return gpu::Binding::of(gpu::SHADOW_PAGE_SLOTS, pageSlots_); }

@@ -109,9 +109,11 @@ View::View(const Module& module, const CndLightingViewDesc& desc)
     if (module.desc.influenceByError)
         influence_.emplace(module.device, k.influence, slots,
                            glm::uvec2(desc_.maxWidth, desc_.maxHeight));
-    if (module.occluders)
+    if (module.occluders) {
         shadows_.emplace(module, clusters_, slots, desc_.shadowBudget,
                          tilesAlong(desc_.maxWidth) * tilesAlong(desc_.maxHeight));
+        proofs_.emplace(module, clusters_, *shadows_, slots);
+    }
     makeRoom(module.lights.capacity(), module.lights.typeCounts());
 }
 
@@ -201,6 +203,8 @@ CndResult View::stats(uint32_t slot, CndLightingStats& out) const noexcept
     out.litSlots = shadows.kinds[gpu::PAIRS_LIT];
     out.listedSlots = shadows.kinds[gpu::PAIRS_LISTED];
     out.walkedSlots = shadows.kinds[gpu::PAIRS_WALKED];
+    out.triedProofs = shadows.triedProofs;
+    out.wonProofs = shadows.wonProofs;
     FramePasses passes = plans_[slot].passes;
     passes.addFindings(c);
     passes.write(out.passes, out.passCount);

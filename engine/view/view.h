@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "clusters/clusters.h"
+#include "view/dark_proofs.h"
 #include "view/forward.h"
 #include "view/frame_passes.h"
 #include "view/frame_plan.h"
@@ -49,7 +50,8 @@ private:
         uint32_t sampleCount = 0;
         uint32_t layers = 0;
         CndInfluenceRule rule = CND_INFLUENCE_GIVEN;
-        bool shadows = false; // lists without slots count as having no pages
+        bool shadows = false;   // lists without slots count as having no pages
+        uint64_t occluders = 0; // the set of those that prove_dark has taken lights for
         bool operator==(const ListsKey&) const = default;
     };
 
@@ -67,7 +69,8 @@ private:
     void recordClusters(const gpu::Frame& f, const FramePlan& plan,
                         const FramePasses& passes) const noexcept;
     void recordTileCounts(const gpu::Frame& f) const noexcept;
-    void recordLists(const gpu::Frame& f, const FramePlan& plan) const noexcept;
+    void recordLists(const gpu::Frame& f, const FramePlan& plan,
+                     const FramePasses& passes) const noexcept;
     void recordClustered(const gpu::Frame& f, const FramePlan& plan, uint32_t type) const noexcept;
     void recordUnlisted(const gpu::Frame& f, const FramePlan& plan, uint32_t type) const noexcept;
     void recordCountPairs(const gpu::Frame& f, const FramePlan& plan, uint32_t type) const noexcept;
@@ -114,6 +117,7 @@ private:
     ForwardLights forward_;
     std::optional<Influence> influence_; // CndLightingDesc::influenceByError
     std::optional<Shadows> shadows_;     // CndLightingDesc::shadows
+    std::optional<DarkProofs> proofs_;   // the same
     ListsKey lists_;                     // what the lists of the last frame were made for
     // What reportProblems() has already sent a message about.
     struct Told {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The leaves of the trees of occluders: how many items they have left, and which is the first
-// (OccluderNode::leaf).
+// The items of a leaf of a tree over occluders (OccluderNode::leaf).
 #ifndef CND_SHADING_OCCLUDER_LEAF
 #define CND_SHADING_OCCLUDER_LEAF
 

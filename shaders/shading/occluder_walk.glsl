@@ -13,7 +13,6 @@
 #include "lib/visibility/triangle_points.glsl"
 #include "shading/occluder_leaf.glsl"
 #include "shading/point_count.glsl"
-#include "shared/occluder_data.h"
 
 // mostWalkTurns: some devices silently end loops after so many turns, which they count over all loops
 // of an invocation (DECISIONS 12), less those that are left for other loops; 0: no limit. Hosts'

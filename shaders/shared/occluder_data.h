@@ -168,7 +168,10 @@ const uint SHARES_UNASKED = 0x80018001u;
 // Counted for one frame, after the LightingCounters in the same buffer.
 const uint SHADOW_COUNTERS_AT = 256u; // bytes
 struct ShadowCounters {
+    // Of lists: frames that keep theirs keep these.
     uint missingSlots;
+    uint triedProofs, wonProofs;
+    // Of frames:
     uint slots;      // the most that one light type took
     uint unfinished; // pairs
     uint kinds[PAIR_KINDS]; // how many pairs of cluster and light are of each kind
@@ -176,7 +179,7 @@ struct ShadowCounters {
     uvec2 partly;
     uvec2 dark;
 };
-GPU_SIZE(ShadowCounters, 48)
+GPU_SIZE(ShadowCounters, 56)
 
 // --- polygon_facets: which rectangle stands for a polygon, one lane per polygon
 const uint POLYGON_FACETS_GROUP = 64u;
@@ -188,6 +191,37 @@ struct PolygonFacetsParams {
     uint count;
 };
 GPU_SIZE(PolygonFacetsParams, 8)
+
+// --- ask_proofs: makes a record of each page in the lists of blocks, one lane per cluster of a block
+const uint ASK_PROOFS_GROUP = 64u;
+const uint ASK_PROOFS_CLUSTERS = 0u;
+const uint ASK_PROOFS_LISTS = 1u;
+const uint ASK_PROOFS_ENTRIES = 2u;
+const uint ASK_PROOFS_RECORDS = 3u; // a WorkList, then ProofRecords
+struct ProofRecord {
+    uint page; // of the entry buffer
+    uint cluster;
+    uint lightType;
+};
+GPU_SIZE(ProofRecord, 12)
+struct AskProofsParams {
+    uint firstCluster, clusterCount; // of blocks
+    uint capacity;                   // of records
+    uint lightType;
+};
+GPU_SIZE(AskProofsParams, 16)
+
+// --- prove_dark: removes the lights from a page that occluders hide from all samples of the block's
+// cluster, one group per record and one lane per light. Lights, frame and occluders have their usual
+// bindings.
+const uint PROVE_DARK_GROUP = 64u;
+const uint PROVE_DARK_SHAPES = 2u;
+const uint PROVE_DARK_CLUSTERS = 3u;
+const uint PROVE_DARK_ENTRIES = 4u;
+const uint PROVE_DARK_RECORDS = 5u;
+const uint PROVE_DARK_COUNTERS = 6u;   // ShadowCounters
+const uint PROVE_DARK_NEIGHBOURS = 8u; // OccluderNeighbours
+const uint PROOF_ROW = 1024u;          // groups in a row
 
 // --- ask_pairs: makes a record of each light in a tile's or slice's list, one group per tile
 const uint ASK_PAIRS_GROUP = 64u;

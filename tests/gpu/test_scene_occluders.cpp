@@ -7,8 +7,10 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "generate/generators.h"
 #include "generate/shapes.h"
 #include "harness/gpu_fixture.h"
+#include "measure/frame/frames.h"
 #include "reference/render.h"
 #include "render/readback.h"
 #include "render/renderer.h"
@@ -139,4 +141,29 @@ TEST_F(SceneOccluders, UnshadowedLightsHaveNoShadows)
     for (CndLight& light : scene.lights)
         light.unshadowed = VK_TRUE;
     EXPECT_LT(meanError(draw(scene, 32), truth(scene, false)), 1e-3);
+}
+
+// In rooms many of the lights in reach are proven to be behind walls. That changes no pixel: brute
+// force has no lists and no proofs.
+TEST_F(SceneOccluders, WallsRemoveLightsAndNoPixelChanges)
+{
+    const Scene scene = generateRooms({.lights = 300, .overlaps = 20});
+    for (const Camera& camera : scene.cameras) {
+        FrameOptions frame{
+            .camera = camera, .lightsVisible = false, .levels = false, .shadows = 32};
+        cndDefaultExposureSettings(&frame.exposure);
+        Renderer renderer(context(), scene, {.size = imageSize, .shadows = 32});
+        const CndLightingStats stats = countPairs(context(), renderer, frame);
+        const Image listed = readRadiance(context(), renderer);
+        EXPECT_GT(stats.wonProofs, stats.triedProofs / 4);
+        std::cout << stats.wonProofs << " of " << stats.triedProofs << " proofs won\n";
+        frame.culling = CND_CULLING_BRUTE;
+        context().submitAndWait([&](VkCommandBuffer cmd) { renderer.record(cmd, 0, frame); });
+        const Image brute = readRadiance(context(), renderer);
+        size_t differ = 0;
+        for (size_t i = 0; i < listed.pixels.size(); ++i)
+            differ += std::abs(listed.pixels[i] - brute.pixels[i]) >
+                      (device().lanesAreCpuVector ? 0 : 1e-5f * std::abs(brute.pixels[i]));
+        EXPECT_EQ(differ, 0u);
+    }
 }

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frames with shadows: lights of all types, found through lists, without lists and by brute force,
 // while lights and occluders change.
+#include <iostream>
 #include <random>
 #include <set>
 #include <string>
 
+#include "generate/shapes.h"
 #include "gpu/lighting_harness.h"
+#include "harness/full_tests.h"
 
 namespace candelabra::test
 {
@@ -44,16 +47,44 @@ protected:
         std::vector<float> positions;
         for (int i = 0; i < 3 * 3 * 12; ++i)
             positions.push_back(float(uniform(-0.7, 0.7)));
-        const CndOccluderMesh mesh{.positions = positions.data(),
-                                   .vertexCount = uint32_t(positions.size() / 3),
-                                   .triangleCount = uint32_t(positions.size() / 9)};
+        addMesh({.positions = positions.data(),
+                 .vertexCount = uint32_t(positions.size() / 3),
+                 .triangleCount = uint32_t(positions.size() / 9)});
+        std::vector<CndOccluderInstance> instances;
+        for (uint32_t i = 0; i < count; ++i)
+            instances.push_back(someInstance(meshes_.back(), layer));
+        addInstances(instances);
+    }
+    // Adds boxes, which some lights are proven to be behind. The size is that of a side.
+    void addBoxes(uint32_t count, double size, uint32_t seed)
+    {
+        random_.seed(seed);
+        const app::Mesh box = app::makeBox();
+        addMesh({.positions = &box.vertices[0].position.x,
+                 .stride = sizeof box.vertices[0],
+                 .vertexCount = uint32_t(box.vertices.size()),
+                 .indices = box.indices.data(),
+                 .triangleCount = uint32_t(box.indices.size() / 3)});
+        std::vector<CndOccluderInstance> instances;
+        for (uint32_t i = 0; i < count; ++i) {
+            instances.push_back(someInstance(meshes_.back(), i % 3));
+            instances.back().surfaceError = i % 4 ? 0 : 0.02f;
+            for (int k = 0; k < 12; ++k)
+                instances.back().worldFromMesh[k] *= k % 4 == 3 ? 1 : k % 4 == 2 ? 0.2 : size;
+        }
+        addInstances(instances);
+    }
+    void addMesh(const CndOccluderMesh& mesh)
+    {
         CndError error{};
         EXPECT_EQ(cndAddOccluderMeshes(lighting(), 1, &mesh, &meshes_.emplace_back(), &error),
                   CND_SUCCESS)
             << error.message;
-        std::vector<CndOccluderInstance> instances;
-        for (uint32_t i = 0; i < count; ++i)
-            instances.push_back(someInstance(meshes_.back(), layer));
+    }
+    void addInstances(const std::vector<CndOccluderInstance>& instances)
+    {
+        const uint32_t count = uint32_t(instances.size());
+        CndError error{};
         occluders_.resize(occluders_.size() + count);
         EXPECT_EQ(cndAddOccluders(lighting(), count, instances.data(),
                                   &occluders_[occluders_.size() - count], &error),
@@ -263,6 +294,60 @@ TEST_F(VisibilityFrames, ListsKeepTheBitsOfOddOccluders)
     }
 }
 
+// Lights that boxes are proven to hide are in no list, and no pixel changes: brute force has no
+// lists.
+TEST_F(VisibilityFrames, ProofsChangeNoPixel)
+{
+    uint64_t won = 0, tried = 0;
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
+        if (cndIsDistant(type))
+            continue;
+        for (uint32_t seed = 0; seed < (fullTests() ? 40u : 2u); ++seed) {
+            removeOccluders();
+            addBoxes(30, seed % 2 ? 3 : 12, seed);
+            auto lights = lightsOf(CndLightType(type), surfaces, 60, type + seed);
+            for (size_t i = 0; i < lights.size(); ++i) {
+                lights[i].influenceRadius *= 4;
+                lights[i].unshadowed = i % 16 == 0;
+                lights[i].unshadowedBy = i % 4 == 0 ? 2 : 0;
+            }
+            const LightingResult listed = draw(lights);
+            EXPECT_LE(listed.stats.wonProofs, listed.stats.triedProofs);
+            EXPECT_GT(listed.stats.wonProofs, 0u) << type << ", " << seed;
+            won += listed.stats.wonProofs;
+            tried += listed.stats.triedProofs;
+            const LightingResult brute = draw(lights, {.culling = CND_CULLING_BRUTE});
+            EXPECT_TRUE(agree(listed.radiance, brute.radiance, batchesOnLlvmpipe))
+                << type << ", " << seed;
+        }
+    }
+    std::cout << won << " of " << tried << " proofs won\n";
+}
+
+// Lists that lack lights are made anew when the occluders move that hid them.
+TEST_F(VisibilityFrames, ProofsHoldForTheirOccluders)
+{
+    const auto lights = lightsOf(CND_LIGHT_SPHERE, surfaces, 60, 1);
+    addBoxes(30, 12, 1);
+    const auto moved = [&] {
+        for (CndOccluderInstance& instance : instances_)
+            instance.worldFromMesh[11] += 5;
+        CndError error{};
+        EXPECT_EQ(cndUpdateOccluders(lighting(), uint32_t(occluders_.size()), occluders_.data(),
+                                     instances_.data(), &error),
+                  CND_SUCCESS)
+            << error.message;
+    };
+    int drawn = 0;
+    RunOptions options{.frames = 2, .unchanged = true};
+    options.beforeFrame = [&] {
+        if (++drawn == 2)
+            moved();
+    };
+    const LightingResult kept = draw(lights, options);
+    EXPECT_TRUE(sameBits(kept, draw(lights)));
+}
+
 // A frame without shadows has the bits that a module without shadows gives it, and so does every
 // pixel that sees all of its lights.
 TEST_F(VisibilityFrames, WhatNothingHidesHasTheSameBits)
@@ -425,8 +510,8 @@ TEST_F(VisibilityFrames, PassesOfShadowsBelongToModulesWithShadows)
         passes(run(surfaces, lights, {.specular = CND_SPECULAR_CONIC}));
     std::set<std::string> with = passes(draw(lights));
     EXPECT_EQ(without.size(), 16u);
-    for (const char* name : {"prepare_occluders", "polygon_facets", "ask_pairs", "list_occluders",
-                             "pair_visibility", "count_shadows"})
+    for (const char* name : {"prepare_occluders", "polygon_facets", "prove_dark", "ask_pairs",
+                             "list_occluders", "pair_visibility", "count_shadows"})
         EXPECT_EQ(with.erase(name), 1u) << name;
     EXPECT_EQ(with, without);
 }

@@ -375,6 +375,9 @@ typedef struct CndLightingStats {
     // On devices that limit loops: pairs whose search for occluders was cut off. They have fewer
     // shadows than they should.
     uint32_t unfinishedPairs;
+    // Pairs of a part of 32x32 pixels and a light, for which a proof was tried that occluders hide
+    // the light from all of these pixels, and those that were proven. Their lights are in no list.
+    uint32_t triedProofs, wonProofs;
     uint32_t kernelTimeCount; // 0 without timestamps
     CndKernelTime kernelTimes[CND_MAX_KERNEL_TIMES];
     uint32_t passCount; // all passes of the module, in order

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Proofs that an occluder hides all of a light from all receivers in a box. The light's
+// Proofs that an occluder hides all of a light from all receivers in a box (DECISIONS 82). The light's
 // emitter is in a ball. The shaft is the union of all ways from the box to the ball. If the number of
 // triangles of a mesh that a way crosses is the same for all ways, and one way crosses one, then all
 // do. The number changes only where ways pass the end of the surface or its silhouette (Laine et al.

@@ -77,7 +77,7 @@ private:
 
 bool asksForShadows(const CndLightingStats& stats)
 {
-    return stats.askedPairs || stats.shadowSlots || stats.missingShadowSlots;
+    return stats.askedPairs || stats.shadowSlots || stats.missingShadowSlots || stats.triedProofs;
 }
 
 } // namespace
@@ -243,7 +243,9 @@ Json toJson(const CndLightingStats& stats)
                           {"litSlots", stats.litSlots},
                           {"listedSlots", stats.listedSlots},
                           {"walkedSlots", stats.walkedSlots},
-                          {"unfinishedPairs", stats.unfinishedPairs}};
+                          {"unfinishedPairs", stats.unfinishedPairs},
+                          {"triedProofs", stats.triedProofs},
+                          {"wonProofs", stats.wonProofs}};
     return out;
 }
 

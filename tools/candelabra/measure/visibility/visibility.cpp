@@ -202,6 +202,7 @@ VisibilityCost measureVisibilityCost(const VulkanContext& context, Renderer& ren
         context, renderer, {.variants = {settings.frame, without}, .rounds = settings.rounds},
         [&] { progress.advance(1); });
     VisibilityCost out{.stats = countPairs(context, renderer, settings.frame),
+                       .proveMs = medianOfPass(profile.series[0], "prove_dark"),
                        .askMs = medianOfPass(profile.series[0], "ask_pairs"),
                        .visibilityMs = medianOfPass(profile.series[0], "pair_visibility"),
                        .ratio = pairedRatio(profile.series[1].gpuMs, profile.series[0].gpuMs)};
@@ -273,6 +274,9 @@ std::string visibilityText(const VisibilityCost& cost, const VisibilityErrors& e
     const CndLightingStats& s = cost.stats;
     const double asked = double(std::max<uint64_t>(s.askedPairs, 1));
     std::string out = shadowText(s, size);
+    out += fmt::format("{} that blocks list, {} proven dark; prove_dark {} ms\n",
+                       counted(s.triedProofs, "light"), grouped(s.wonProofs),
+                       threeDigits(cost.proveMs));
     out += fmt::format("ask_pairs {} ms, pair_visibility {} ms: {} us per pair asked for; CPU "
                        "time {} us per pair\n",
                        threeDigits(cost.askMs), threeDigits(cost.visibilityMs),
@@ -319,6 +323,8 @@ Json visibilityJson(const VisibilityCost& cost, const VisibilityErrors& errors)
               {"dark", s.darkPairs},
               {"missingSlots", s.missingShadowSlots},
               {"unfinished", s.unfinishedPairs}}},
+            {"proofs", {{"tried", s.triedProofs}, {"won", s.wonProofs}}},
+            {"proveDarkMs", cost.proveMs},
             {"askPairsMs", cost.askMs},
             {"pairVisibilityMs", cost.visibilityMs},
             {"cpuMicrosecondsPerAskedPair", 1e3 * cost.cpuMs / asked},

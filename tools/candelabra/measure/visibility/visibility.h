@@ -41,7 +41,8 @@ struct VisibilityErrors {
 
 struct VisibilityCost {
     CndLightingStats stats{};           // with counted pairs
-    double askMs = 0, visibilityMs = 0; // medians of the passes ask_pairs and pair_visibility
+    double proveMs = 0;                 // medians of the passes prove_dark,
+    double askMs = 0, visibilityMs = 0; // ask_pairs and pair_visibility
     double cpuMs = 0;  // CPU time that a frame takes with shadows, less that without
     PairedRatio ratio; // GPU time with shadows over that without
 };
