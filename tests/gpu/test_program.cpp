@@ -519,7 +519,7 @@ TEST_F(ProgramTest, BenchSkipComparesFramesOfTheSameImage)
 TEST_F(ProgramTest, BenchVisibilityComparesShadowsWithRays)
 {
     const Outcome outcome = run("bench visibility rooms --lights 40 --size 64x36 --rounds 1 "
-                                "--pixels 30 --json v.json -q --validate");
+                                "--pixels 30 --json v.json --pictures --out v -q --validate");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("16 random rays"), std::string::npos) << outcome.out;
     const auto json = nlohmann::json::parse(text("v.json"));
@@ -536,6 +536,14 @@ TEST_F(ProgramTest, BenchVisibilityComparesShadowsWithRays)
     ASSERT_EQ(errors.size(), 6u);
     EXPECT_LT(errors[0]["ofPixel"]["meanPercent"], 2.0);
     EXPECT_GT(errors[1]["ofPixel"]["meanPercent"], 5.0);
+    size_t compared = 0;
+    const app::Image truth = app::loadPfm(path("v/truth.pfm"));
+    const app::Image unshadowed = app::loadPfm(path("v/no-shadows.pfm"));
+    for (size_t i = 0; i < truth.pixels.size(); ++i) {
+        compared += !std::isnan(truth.pixels[i]);
+        EXPECT_FALSE(truth.pixels[i] > 1.001f * unshadowed.pixels[i]) << i;
+    }
+    EXPECT_EQ(compared, 3u * 30);
     // Shadows only take light away.
     for (const auto& e : errors) {
         EXPECT_LT(e["ofUnshadowed"]["meanPercent"], e["ofPixel"]["meanPercent"]) << e;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // candelabra bench visibility: measures what soft shadows cost and how exact they are.
+#include <algorithm>
 #include <memory>
 
 #include <spdlog/spdlog.h>
@@ -7,6 +8,7 @@
 #include "commands/bench_commands.h"
 #include "commands/messages.h"
 #include "io/error.h"
+#include "io/image.h"
 #include "load/load.h"
 #include "measure/visibility/visibility.h"
 #include "render/camera.h"
@@ -25,6 +27,7 @@ struct VisibilityArguments {
     FrameArguments frame; // only size and camera are options of this command
     std::string shadows = "64", pixels = "100", rounds = "7";
     std::string directory = "out", json;
+    bool pictures = false;
 };
 
 int visibility(const ProgramContext& program, const VisibilityArguments& a)
@@ -60,7 +63,8 @@ int visibility(const ProgramContext& program, const VisibilityArguments& a)
                                                 .shadows = points,
                                                 .exposure = defaultExposureSettings()},
                                       .rounds = rounds,
-                                      .pixels = pixels};
+                                      .pixels = pixels,
+                                      .pictures = a.pictures};
     Renderer renderer(context, scene,
                       {.size = size, .framesInFlight = 1, .shadows = points, .stamps = true});
     VisibilityCost cost;
@@ -80,6 +84,10 @@ int visibility(const ProgramContext& program, const VisibilityArguments& a)
                   {"rounds", rounds}};
     document.update(visibilityJson(cost, errors));
     writeJson(json, document);
+    for (auto [name, picture] : errors.pictures) {
+        std::ranges::replace(name, ' ', '-');
+        saveImageByExtension(a.directory + "/" + name + ".pfm", picture);
+    }
     if (json != "-")
         writeText("-", visibilityText(cost, errors, size) + "All figures: " + json + "\n");
     return printValidationMessages(context) ? exitFailed : exitOk;
@@ -100,6 +108,10 @@ void addBenchVisibility(CLI::App& bench, Run& run)
               "number of random pixels that are compared with the truth");
     addOption(*command, "--rounds", a->rounds, "N",
               "rounds; each round draws the frame with and without shadows");
+    command->add_flag(
+        "--pictures", a->pictures,
+        "write the frame, the truth and what the other rows draw at the pixels that are "
+        "compared as .pfm files into the folder of --out");
     a->frame.addPlaceTo(*command);
     addBenchOutput(*command, a->directory, a->json, "bench_visibility.json");
     a->device.addTo(*command);

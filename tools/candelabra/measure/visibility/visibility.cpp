@@ -124,10 +124,10 @@ private:
     reference::EmitterPoints emitter_;
 };
 
-// The luminance of a pixel; 0 if it shows no surface.
+// The luminance of a pixel in three channels; 0 if it shows no surface.
 struct PixelValues {
-    double truth = 0;
-    std::array<double, rivalCount> rivals{};
+    glm::dvec3 truth{0};
+    std::array<glm::dvec3, rivalCount> rivals{};
 };
 
 PixelValues pixelValues(const reference::Scene& scene, const reference::Occluders& occluders,
@@ -137,22 +137,21 @@ PixelValues pixelValues(const reference::Scene& scene, const reference::Occluder
     const reference::Material material =
         joinLobes(surface, glm::dot(hit.surface.normal, hit.surface.toEye), scene.lobes,
                   scene.energyCompensation);
-    glm::dvec3 truth = surface.emission;
+    PixelValues out{.truth = surface.emission};
+    out.rivals.fill(surface.emission);
     reference::addLights({.lights = scene.lights,
                           .ignoredLayers = scene.ignoredLayers,
                           .lightOrigin = scene.lightOrigin,
                           .occluders = &occluders,
                           .relative = tolerance,
                           .seed = seed},
-                         hit.surface, material, truth);
-    PixelValues out{.truth = luminanceOf(truth)};
-    out.rivals.fill(luminanceOf(surface.emission));
+                         hit.surface, material, out.truth);
     Random random(seed);
     for (size_t i = 0; i < scene.lights.size(); ++i) {
-        const double light = luminanceOf(
+        const glm::dvec3 light =
             truthLuminance(hit.surface, material, scene.lights[i], scene.lightOrigin, tolerance)
-                .luminance);
-        if (light == 0)
+                .luminance;
+        if (light == glm::dvec3(0))
             continue;
         const auto shares = LightRays(scene, occluders, i, hit.surface).shares(random);
         for (size_t rival = 0; rival < rivalCount; ++rival)
@@ -248,13 +247,13 @@ VisibilityErrors measureVisibilityErrors(const VulkanContext& context, Renderer&
     std::vector<double> truths, ours, rivals[rivalCount];
     const std::vector<double>& unshadowed = rivals[0];
     for (size_t i = 0; i < pixels.size(); ++i) {
-        if (!(found[i].rivals[0] > 0))
+        if (!(luminanceOf(found[i].rivals[0]) > 0))
             continue;
         const float* p = &image.pixels[size_t{3} * pixels[i]];
-        truths.push_back(found[i].truth);
+        truths.push_back(luminanceOf(found[i].truth));
         ours.push_back(luminanceOf({p[0], p[1], p[2]}));
         for (size_t rival = 0; rival < rivalCount; ++rival)
-            rivals[rival].push_back(found[i].rivals[rival]);
+            rivals[rival].push_back(luminanceOf(found[i].rivals[rival]));
         out.leaks += !(truths.back() > 0) && ours.back() > 0;
     }
     out.compared = truths.size();
@@ -265,6 +264,20 @@ VisibilityErrors measureVisibilityErrors(const VulkanContext& context, Renderer&
     add("this engine", ours);
     for (size_t rival = 0; rival < rivalCount; ++rival)
         add(rivalNames[rival], rivals[rival]);
+    if (!settings.pictures)
+        return out;
+    const auto addPicture = [&](const char* name, auto&& valueOf) {
+        Image picture{image.width, image.height, 3,
+                      std::vector<float>(image.pixels.size(), std::nanf(""))};
+        for (size_t i = 0; i < pixels.size(); ++i)
+            for (int c = 0; c < 3; ++c)
+                picture.pixels[size_t{3} * pixels[i] + c] = float(valueOf(found[i])[c]);
+        out.pictures.emplace_back(name, std::move(picture));
+    };
+    out.pictures.emplace_back("this engine", image);
+    addPicture("truth", [](const PixelValues& v) { return v.truth; });
+    for (size_t rival = 0; rival < rivalCount; ++rival)
+        addPicture(rivalNames[rival], [&](const PixelValues& v) { return v.rivals[rival]; });
     return out;
 }
 

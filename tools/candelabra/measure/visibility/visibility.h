@@ -18,6 +18,7 @@ struct VisibilitySettings {
     FrameOptions frame;      // with shadows
     uint32_t rounds = 1;     // of frames with and without shadows
     uint32_t pixels = 1;     // at random positions, compared with the truth
+    bool pictures = false;   // see VisibilityErrors
     double tolerance = 1e-4; // reference::TruthOptions::relative
 };
 
@@ -37,6 +38,9 @@ struct VisibilityErrors {
     std::vector<VisibilityError> rows; // of this engine, without shadows, and of rays
     size_t compared = 0;               // pixels that lights reach, but for shadows
     size_t leaks = 0; // of them, pixels without light, by the truth, that the engine gives light
+    // The frame, and the truth and the rivals at the pixels compared, NaN elsewhere; by their
+    // names.
+    std::vector<std::pair<std::string, Image>> pictures;
 };
 
 struct VisibilityCost {
