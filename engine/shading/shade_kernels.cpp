@@ -228,7 +228,7 @@ ShadeKernels::Variant ShadeKernels::make(const Job& job) const
         out.measure = makeKernel<gpu::MeasureInfluenceParams>(*kernels[0], job);
         break;
     case Visibility:
-        for (uint32_t kind = 0; kind < pairKinds(); ++kind)
+        for (uint32_t kind = 0; kind < pairKinds(job.lightType); ++kind)
             out.visibility[kind] =
                 makeKernel<gpu::PairVisibilityParams>(*kernels[0], job, gpu::ANY_HEIGHT, kind);
         break;

@@ -10,6 +10,7 @@
 
 #include "candelabra/candelabra.h"
 #include "gpu/kernel.h"
+#include "lights/light_types.h"
 #include "shared/influence_data.h"
 #include "shared/lighting_data.h"
 #include "shared/occluder_data.h"
@@ -74,8 +75,12 @@ public:
     {
         return slots_[type][CND_SPECULAR_NONE].kernels.visibility[kind];
     }
-    // Returns the number of kinds of pairs: if the host finds points, there is only PAIRS_WALKED.
-    uint32_t pairKinds() const { return host_->findsPoints() ? 1 : gpu::PAIR_KINDS; }
+    // Returns the number of kinds of pairs of a type. Distant lights have no lists of occluders,
+    // nor does any light if the host finds points.
+    uint32_t pairKinds(uint32_t type) const
+    {
+        return isDistant(type) || host_->findsPoints() ? 1 : gpu::PAIR_KINDS;
+    }
     // `tileClass`: one of tileClasses().
     const Tiles& tiles(uint32_t type, CndSpecularMethod method, uint32_t tileClass) const;
     // Returns the number of tile classes that have a work list and kernels: CLASS_ANY has them, and

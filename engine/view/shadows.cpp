@@ -255,11 +255,11 @@ void Shadows::recordListed(const gpu::Frame& f, const FramePlan& p, uint32_t typ
         f, listSets_.set(f.slot),
         {.capacity = capacity_,
          .lightType = type,
-         .fromHost = module_.kernels.shade.pairKinds() == 1},
+         .fromHost = module_.kernels.shade.pairKinds(type) == 1},
         asked_, offsetof(gpu::AskedPairs, records));
     f.barrier();
     const gpu::UntimedFrame untimed(f); // the kinds are found at the same time
-    for (uint32_t kind = 0; kind < module_.kernels.shade.pairKinds(); ++kind)
+    for (uint32_t kind = 0; kind < module_.kernels.shade.pairKinds(type); ++kind)
         module_.kernels.shade.visibility(type, kind)
             .dispatchIndirect(
                 untimed, visibilitySets_.set(setOf(f, type)),
