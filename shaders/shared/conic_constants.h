@@ -64,8 +64,8 @@ GPU_BEGIN
 CND_CONIC_FITTED(X)
 #undef X
 
-// --- Fitted separately: minimax polynomials (lib/specular/conic_clip.glsl), by the algorithm of Remez.
-// The area of a segment of a circle, divided by the area of the circle, is about
+// --- Fitted separately: minimax polynomials (lib/specular/conic_clip.glsl), by the algorithm of
+// Remez. The area of a segment of a circle, divided by the area of the circle, is about
 //   u^(3/2) (CONIC_SEGMENT - u (CONIC_SEGMENT_U + CONIC_SEGMENT_U2 u)),
 // where u in 0..1 is the height of the segment, divided by the diameter. CONIC_SEGMENT is
 // 16 / (3 pi), the start of the series, and the sum is 1 at u = 1, so one number was left to fit.

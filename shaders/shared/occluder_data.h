@@ -42,7 +42,8 @@ struct OccluderNeighbours {
     uint edges[3];
 };
 GPU_SIZE(OccluderNeighbours, 12)
-const uint NO_NEIGHBOUR = 0xFFFFFFFFu; // the edge is one of the mesh's boundary, or of three triangles
+const uint NO_NEIGHBOUR =
+    0xFFFFFFFFu; // the edge is one of the mesh's boundary, or of three triangles
 
 // An instance as the CPU sends it, at its place in the order of the tree over instances.
 struct OccluderRecord {
@@ -95,8 +96,8 @@ const uint SHADOW_VIEW = 29u;
 // Bindings of the kernels that read or write visible shares.
 const uint SHADOW_SLOTS = 30u;
 const uint SHADOW_PAGE_SLOTS = 31u; // per page of the entry buffer: the slot of its first light
-// In place of SHADOW_VIEW in the forward set of modules whose hosts have rays: shaders with rays fit
-// that set alone, and shaders that walk fit the others.
+// In place of SHADOW_VIEW in the forward set of modules whose hosts have rays: shaders with rays
+// fit that set alone, and shaders that walk fit the others.
 const uint SHADOW_VIEW_OF_RAYS = 35u;
 // Instances, nodes and triangles as texels (shading/software_drivers.glsl); not in the forward set.
 const uint SHADOW_INSTANCE_TEXELS = 32u;
@@ -143,7 +144,7 @@ struct AskedPairs {
     uint items;                 // also counts items that there was no room for
 };
 GPU_SIZE(AskedPairs, 84)
-const uint ITEMS_PER_SLOT = 4u;                                 // for which there is room
+const uint ITEMS_PER_SLOT = 4u; // for which there is room
 // Words per slot, after AskedPairs.
 const uint ASKED_WORDS = RECORD_WORDS + PAIR_KINDS + ITEM_WORDS * ITEMS_PER_SLOT;
 
@@ -172,10 +173,10 @@ struct ShadowCounters {
     uint missingSlots;
     uint triedProofs, wonProofs;
     // Of frames:
-    uint slots;      // the most that one light type took
-    uint unfinished; // pairs
+    uint slots;             // the most that one light type took
+    uint unfinished;        // pairs
     uint kinds[PAIR_KINDS]; // how many pairs of cluster and light are of each kind
-    uvec2 asked; // 64 bit: low, high
+    uvec2 asked;            // 64 bit: low, high
     uvec2 partly;
     uvec2 dark;
 };
@@ -192,7 +193,8 @@ struct PolygonFacetsParams {
 };
 GPU_SIZE(PolygonFacetsParams, 8)
 
-// --- ask_proofs: makes a record of each page in the lists of blocks, one lane per cluster of a block
+// --- ask_proofs: makes a record of each page in the lists of blocks, one lane per cluster of a
+// block
 const uint ASK_PROOFS_GROUP = 64u;
 const uint ASK_PROOFS_CLUSTERS = 0u;
 const uint ASK_PROOFS_LISTS = 1u;
@@ -211,9 +213,9 @@ struct AskProofsParams {
 };
 GPU_SIZE(AskProofsParams, 16)
 
-// --- prove_dark: removes the lights from a page that occluders hide from all samples of the block's
-// cluster, one group per record and one lane per light. Lights, frame and occluders have their usual
-// bindings.
+// --- prove_dark: removes the lights from a page that occluders hide from all samples of the
+// block's cluster, one group per record and one lane per light. Lights, frame and occluders have
+// their usual bindings.
 const uint PROVE_DARK_GROUP = 64u;
 const uint PROVE_DARK_SHAPES = 2u;
 const uint PROVE_DARK_CLUSTERS = 3u;
