@@ -234,7 +234,7 @@ void View::recordLists(const gpu::Frame& f, const FramePlan& p,
                        const FramePasses& passes) const noexcept
 {
     const gpu::UntimedFrame u(f); // lists of one type may be made at the same time as of another
-    const char* const name = module_.kernels.clusters.clusterLists.name();
+    const char* const row = module_.kernels.clusters.clusterLists.name();
     const bool proves = passes.runs(Pass::ProveDark);
     const auto forEachType = [&](auto&& record) {
         for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
@@ -245,7 +245,7 @@ void View::recordLists(const gpu::Frame& f, const FramePlan& p,
         clusters_.recordBlockLists(u, type, p.trees[type], p.tileCount, proves);
     });
     if (proves) {
-        f.timer.stamp(f.cmd, name);
+        f.timer.stamp(f.cmd, row);
         f.barrier();
         proofs_->record(f, p);
     }
@@ -253,7 +253,7 @@ void View::recordLists(const gpu::Frame& f, const FramePlan& p,
     forEachType([&](uint32_t type) {
         clusters_.recordLists(u, type, p.trees[type], p.tileCount, lightsPerBatch(p, type));
     });
-    f.timer.stamp(f.cmd, name);
+    f.timer.stamp(f.cmd, row);
     f.barrier();
 }
 
