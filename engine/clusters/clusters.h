@@ -88,7 +88,7 @@ public:
     // the tiles that hold a surface. Tiles longer than `splitLength` metres are split into slices.
     void recordClusters(const gpu::Frame& frame, glm::uvec2 tileCount, float splitLength,
                         bool forLists) const noexcept;
-    // Makes the lists of blocks. forProofs: most lights of long ones may be removed.
+    // Makes the lists of blocks. forProofs: lists may be longer, because proofs follow.
     void recordBlockLists(const gpu::Frame& frame, uint32_t type, const gpu::TreeShape& tree,
                           glm::uvec2 tileCount, bool forProofs) const noexcept;
     // Makes the lists of tiles and slices from those of blocks. `longest`: number of lights in the

@@ -89,6 +89,8 @@ void FramePasses::skipShadows(const FrameContent& c)
         else if (!c.occludersInLayers &&
                  (pass == Pass::PrepareOccluders || pass == Pass::ProveDark || !c.hostFindsPoints))
             skip(pass, "no occluder of the view's layers");
+    if (c.hostFindsPoints)
+        skip(Pass::ProveDark, "the host finds the points");
     if (c.brute)
         for (const Pass pass :
              {Pass::ProveDark, Pass::AskPairs, Pass::ListOccluders, Pass::CountShadows})

@@ -51,7 +51,7 @@ private:
         uint32_t layers = 0;
         CndInfluenceRule rule = CND_INFLUENCE_GIVEN;
         bool shadows = false;   // lists without slots count as having no pages
-        uint64_t occluders = 0; // the set of those that prove_dark has taken lights for
+        uint64_t occluders = 0; // number of the occluder set that the proofs used
         bool operator==(const ListsKey&) const = default;
     };
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Removes lights from the lists of blocks that occluders hide from all samples of the block's cluster,
 // so that no tile or slice of it gets them (lib/visibility/dark_proof.glsl). A group takes a page of a
-// list, and each lane a light. The middle way of the light's shaft leads through the tree over
-// instances. Each instance that it may cross is tested by a walk through the mesh with the shaft, until
-// one is proven to hide the light. A proof that fails or takes too long changes nothing but time.
+// list, and each lane a light. The way from the centre of the box of the samples to the light leads
+// through the tree over instances. Each instance that it may cross is tested by a walk through the mesh
+// with the shaft, until one is proven to hide the light. A proof that fails or takes too long changes
+// nothing but time.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_vote : require
 #include "kernels/common/frame_params.glsl"
 #include "kernels/common/light_stream.glsl"
-#include "lib/light_shape.glsl"
 #include "lib/projection.glsl"
 #include "shading/occluder_buffers.glsl"
 #include "shading/occluder_leaf.glsl"
@@ -20,6 +20,7 @@ layout(scalar, binding = PROVE_DARK_SHAPES) readonly buffer Shapes
 {
     LightShape lightShapes[];
 };
+#include "shading/facet_shape.glsl"
 layout(scalar, binding = PROVE_DARK_CLUSTERS) readonly buffer Clusters
 {
     Cluster clusters[];
@@ -142,8 +143,8 @@ bool mayTouch(Proof p, vec3 a, vec3 b, vec3 c, ShaftTriangle t)
            !isBesideShaft(p.shaft, p.ownDistance, t);
 }
 
-// Tests the triangles of the leaves in the queue. Sets the masks of those that touch the shaft and that
-// all ways cross the planes of.
+// Tests the triangles of the leaves in the queue. Sets a bit for each triangle that touches the shaft
+// and whose plane every way crosses.
 void testTriangles(inout Proof p, uint queued, out uvec2 forward, out uvec2 backward)
 {
     forward = backward = uvec2(0u);
@@ -265,12 +266,6 @@ bool isProvenDark(inout Proof p, bool tries)
     return dark;
 }
 
-// Returns flags as in LightRecord, with the bits of occluder_data.h.
-uint shadowFlags(uint type, LightShape shape)
-{
-    return type == LIGHT_POLYGON ? lightShapes[firstCornerShape(shape)].flags : shape.flags;
-}
-
 // Writes the lights that stay to the beginning of the page, in their order.
 void writePage(uint page, uint header, uint light)
 {
@@ -305,12 +300,12 @@ void main()
     const uint light = entries[record.page * PAGE_WORDS + 1u + (isLight ? lane : 0u)];
     const vec4 centreRadius = lightCentre(light);
     const LightShape shape = lightShapes[light];
-    const uint flags = shadowFlags(record.lightType, shape);
+    const uint flags = facetShape(light, record.lightType).shape.flags;
     const Cluster cluster = clusters[record.cluster];
     Proof p;
     p.centre = 0.5 * (cluster.min + cluster.max);
     p.depthError = depthErrorWithin(frameParams.projection, cluster.min, cluster.max);
-    p.ignored = flags >> LIGHT_UNSHADOWED_BY_SHIFT << OCCLUDER_LAYERS_SHIFT;
+    p.ignored = ignoredLayers(flags);
     p.turns = p.node = p.end = p.crossings = 0u;
     p.failed = false;
     const bool inShaft =

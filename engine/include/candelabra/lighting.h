@@ -252,9 +252,9 @@ typedef struct CndLightingFrame {
     CndInfluence influence;
     // With VK_TRUE the host promises that size, camera, clearDepth, depth and normals are those of
     // the previous frame recorded with this view, and with diffuseOnlyTiles also albedo and
-    // specular. The clusters and lists of that frame are then reused if the light set, layers,
-    // specularMethod, sampleCount and influence.rule are also the same and both frames use
-    // CND_CULLING_CLUSTERED. With CND_INFLUENCE_BY_ERROR they are never reused.
+    // specular. The clusters and lists of that frame are then reused if the light set, occluders,
+    // layers, specularMethod, sampleCount, influence.rule and shadowsOff are also the same and both
+    // frames use CND_CULLING_CLUSTERED. With CND_INFLUENCE_BY_ERROR they are never reused.
     VkBool32 surfacesUnchanged;
     // With CND_CULLING_BRUTE: the pixels to shade; zero extent: all pixels. No dispatch evaluates
     // more than 2^28 pairs of pixel and light (with more than four million lights: the pairs of 64
@@ -375,8 +375,8 @@ typedef struct CndLightingStats {
     // On devices that limit loops: pairs whose search for occluders was cut off. They have fewer
     // shadows than they should.
     uint32_t unfinishedPairs;
-    // Pairs of a part of 32x32 pixels and a light, for which a proof was tried that occluders hide
-    // the light from all of these pixels, and those that were proven. Their lights are in no list.
+    // Pairs of a part of 32x32 pixels and a light, for which a proof was tried that one occluder
+    // hides the light from all of them, and those proven. Proven lights are in no list or count.
     uint32_t triedProofs, wonProofs;
     uint32_t kernelTimeCount; // 0 without timestamps
     CndKernelTime kernelTimes[CND_MAX_KERNEL_TIMES];

@@ -16,8 +16,8 @@ typedef uint64_t CndOccluderId;
 
 // A mesh that casts shadows, in the host's memory. It is copied before the call returns. Its
 // triangles are two-sided and need not be connected or closed. Triangles without an area are
-// allowed and cast no shadow. A mesh takes about 70 bytes of device memory per triangle, and
-// as much plus 12 bytes of host memory. Positions that only the device has, such as those of
+// allowed and cast no shadow. A mesh takes about 80 bytes of device memory per triangle, and
+// as much plus 24 bytes of host memory. Positions that only the device has, such as those of
 // skinned meshes, cannot be given yet.
 typedef struct CndOccluderMesh {
     // The first of vertexCount positions, three floats each, in metres in the mesh's own space.

@@ -47,7 +47,7 @@ float leastSlope(vec3 box, vec3 toLight, vec3 normal, float farthest)
 }
 
 // Sets the shaft from a box to the ball that holds the facets of a light (light_facet.glsl) for all
-// receivers in the box, and the parts of all ways to points of them that no occluder is counted in
+// receivers in the box. The ball also holds the end of each way, where occluders do not count
 // (FrontSurface). Returns false if there is no proof, because some receiver is too near to the light or
 // sees it too flat for a facet, and thus sees all of it.
 // toLight: from the centre of the box to that of the light; shape: that of the light, also of polygons.
@@ -99,7 +99,8 @@ uint planeSide(Shaft s, float ownDistance, ShaftTriangle t)
     const float unsure = s.slack * (size + t.reach * (length(ab) + length(ac)));
     const float atBox = -dot(n, t.a), atBall = dot(n, s.ball - t.a);
     const float ofBox = dot(abs(n), s.box) + size * ownDistance + unsure * (t.reach + length(s.box));
-    const float ofBall = size * s.radius + unsure * (t.reach + length(s.ball) + s.radius);
+    const float ofBall =
+        size * (s.radius + ownDistance) + unsure * (t.reach + length(s.ball) + s.radius);
     // Written so that NaN is near.
     const bool boxAhead = atBox > ofBox, boxBehind = atBox < -ofBox;
     const bool ballAhead = atBall > ofBall, ballBehind = atBall < -ofBall;
@@ -119,7 +120,8 @@ bool isCrossed(uint side)
 bool isOpenEdge(uint side, uint neighbour, uint otherSide)
 {
     const bool turned = (neighbour & 1u) != 0u;
-    return neighbour == NO_NEIGHBOUR || (isCrossed(otherSide) && (side != otherSide) != turned);
+    return neighbour == NO_NEIGHBOUR || otherSide == PLANE_NEAR ||
+           (isCrossed(otherSide) && (side != otherSide) != turned);
 }
 
 // Returns whether the way from the centre of the box to that of the ball, which crosses the triangle's
