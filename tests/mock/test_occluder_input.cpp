@@ -177,6 +177,7 @@ TEST_F(OccluderInput, ForwardSetsFitOneKindOfShader)
                                               .hostKernels = {count, rays, {}},
                                               .shadows = {.points = 64}});
         ASSERT_TRUE(lighting) << lighting.error().message;
+        view_ = {}; // before its module
         lighting_ = std::move(lighting.value());
         auto view = lighting_.createView({.maxWidth = 64, .maxHeight = 48});
         ASSERT_TRUE(view) << view.error().message;
