@@ -36,8 +36,10 @@ layout(scalar, binding = SHADE_COUNTERS) buffer Counters
 // It needs pointTable() of the buffers.
 #include "lib/visibility/shaft.glsl"
 
-const uint MAX_ITEMS = 16u;      // of a pair
-const uint MAX_TURNS = 4096u;    // of a lane
+// Items of a pair, at most: with 31 the hall is no faster (DECISIONS 81).
+const uint MAX_ITEMS = 16u;
+// Node steps of a lane, at most, so that all loops stay below the 65,535 turns of llvmpipe.
+const uint MAX_TURNS = 4096u;
 const float MAX_ROUNDING = 4e-3; // of the light coordinates of pairs that are listed (roundingOf)
 shared uvec2 foundItems[MAX_ITEMS * LIST_OCCLUDERS_GROUP];
 #define FOUND_ITEM(i) foundItems[(i)*LIST_OCCLUDERS_GROUP + gl_LocalInvocationIndex]

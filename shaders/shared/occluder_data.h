@@ -169,10 +169,10 @@ const uint SHARES_UNASKED = 0x80018001u;
 // Counted for one frame, after the LightingCounters in the same buffer.
 const uint SHADOW_COUNTERS_AT = 256u; // bytes
 struct ShadowCounters {
-    // Of lists: frames that keep theirs keep these.
+    // The next three are counted when lists are made. A frame that keeps the lists keeps them.
     uint missingSlots;
     uint triedProofs, wonProofs;
-    // Of frames:
+    // The others are counted in every frame.
     uint slots;             // the most that one light type took
     uint unfinished;        // pairs
     uint kinds[PAIR_KINDS]; // how many pairs of cluster and light are of each kind

@@ -177,6 +177,18 @@ protected:
                   << "; an ulp of the depth makes " << moved << "\n";
         EXPECT_LE(difference, std::max(acrossPipelines, 4 * moved));
     }
+    // Draws with the module's shadows and expects the light of the deferred view. Returns the
+    // largest difference from the light without shadows, as a share of the largest radiance.
+    double changeByShadows(const CpuGBuffer& seen, const std::vector<CndLight>& lights)
+    {
+        const RunOptions options{.specular = CND_SPECULAR_CONIC};
+        const Lit shadowed = frame(seen, seen, options);
+        std::vector<glm::vec4> twice = shadowed.lit(); // the view was recorded twice
+        for (glm::vec4& pixel : twice)
+            pixel *= 2;
+        expectAlike(twice, shadowed.deferred, seen, lights, options);
+        return maxRelativeDifference(run(seen, lights, options).radiance, shadowed.lit());
+    }
 
     LightingAndView own_;
     uint32_t slot_ = 0;
@@ -400,14 +412,7 @@ TEST_F(ForwardTest, FindsTheShadowsOfTheModulesOccluders)
             << error.message;
         ASSERT_EQ(cndAddOccluders(own_.lighting, 1, &instance, &id, &error), CND_SUCCESS)
             << error.message;
-        const RunOptions options{.specular = CND_SPECULAR_CONIC};
-        const Lit shadowed = frame(seen, seen, options);
-        std::vector<glm::vec4> twice = shadowed.lit(); // the view was recorded twice
-        for (glm::vec4& pixel : twice)
-            pixel *= 2;
-        expectAlike(twice, shadowed.deferred, seen, lights, options);
-        EXPECT_GT(maxRelativeDifference(run(seen, lights, options).radiance, shadowed.lit()),
-                  points == 64 ? 0.01 : 0.001);
+        EXPECT_GT(changeByShadows(seen, lights), points == 64 ? 0.01 : 0.001);
     }
 }
 
@@ -424,13 +429,7 @@ TEST_F(ForwardTest, AsksTheRaysOfTheHost)
     ASSERT_TRUE(kernels) << kernels.error().message;
     const std::vector<CndLight> lights = randomSpheres(seen, 20, 7);
     create(seen, lights, false, 64, kernels.value().hostKernels({}));
-    const RunOptions options{.specular = CND_SPECULAR_CONIC};
-    const Lit shadowed = frame(seen, seen, options);
-    std::vector<glm::vec4> twice = shadowed.lit(); // the view was recorded twice
-    for (glm::vec4& pixel : twice)
-        pixel *= 2;
-    expectAlike(twice, shadowed.deferred, seen, lights, options);
-    EXPECT_GT(maxRelativeDifference(run(seen, lights, options).radiance, shadowed.lit()), 0.1);
+    EXPECT_GT(changeByShadows(seen, lights), 0.1);
 }
 
 } // namespace candelabra::test

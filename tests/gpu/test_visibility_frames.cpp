@@ -170,8 +170,8 @@ TEST_F(VisibilityBits, LightInFullViewKeepsThem)
             drawn[0] = drawFrame(own.view, frameOf(g, images, options), images);
             continue;
         }
-        // The first mesh is a triangle behind the camera. The second one is a row of triangles that
-        // stand between the surfaces and the lights.
+        // The first mesh, one triangle behind the camera, hides no light. The second mesh, a row of
+        // triangles between the surfaces and the lights, hides some.
         std::vector<float> positions = {-9, -9, 5, 9, -9, 5, 0, 9, 5};
         for (float x = -4; x <= 4; x += 0.5f)
             positions.insert(positions.end(), {x, -30, 0, x, 30, 0, x, 0, -40});

@@ -136,7 +136,7 @@ TEST(VisibilityShaft, LeavesOutTheFloorAndKeepsTheTable)
     EXPECT_TRUE(leavesOut(shaft, {}, level(3, 50)));
     EXPECT_TRUE(leavesOut(shaft, {}, level(1, 0.1)));
     EXPECT_FALSE(leavesOut(shaft, {}, level(1, 2)));
-    // Of samples that are a little below the floor, those within the own distance do not count.
+    // A floor hides nothing from samples that lie below it by less than the own distance.
     shaft.low.y = -1e-5;
     EXPECT_FALSE(leavesOut(shaft, {}, level(0, 50)));
     shaft.ownDistance = 2e-5;
