@@ -38,7 +38,7 @@ uint32_t lightsPerBatch(const gpu::Device& device, uint32_t loopIterations)
 
 uint32_t walkTurns(const gpu::Device& device)
 {
-    constexpr uint32_t others = 8192; // turns of a round, and of loops beside the walk
+    constexpr uint32_t others = 8192; // from one leaf to the next, and of loops beside the walk
     return device.maxLoopIterations == UINT32_MAX ? 0 : device.maxLoopIterations - others;
 }
 

@@ -152,7 +152,7 @@ bool findItems(ShaftEnds ends, uint layers, uint ignored, bool walks, out uint c
     w.instances = w.triangles = w.kept = w.items = 0u;
     uint turns = 0u;
     bool left = walks;
-    do { // This loop ends in all lanes at once, as that of visiblePoints() does.
+    do { // This loop ends in all lanes at once: llvmpipe would lose nodes if lanes left it one by one.
         do {
             if (left && isAtNode(w))
                 visitNode(w);

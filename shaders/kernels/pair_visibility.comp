@@ -31,7 +31,6 @@ layout(scalar, binding = SHADE_COUNTERS) buffer Counters
     ShadowCounters shadowCounters;
 };
 
-#define QUEUE_LANES (TILE_SIZE * TILE_SIZE)
 #include "kernels/common/cluster_of_depth.glsl"
 #include "kernels/common/depth_error.glsl"
 #include "shading/light_visibility.glsl"

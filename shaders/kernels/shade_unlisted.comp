@@ -21,7 +21,7 @@ layout(push_constant, scalar) uniform Push
 #ifdef SHADOWS
 #include "shading/occluder_buffers.glsl"
 #define FINDS_SHARES
-#define QUEUE_LANES (TILE_SIZE * TILE_SIZE)
+#define SHARES_LANES (TILE_SIZE * TILE_SIZE)
 const uint FOUND_LEAVES = SHADOW_BLOCK / TREE_WIDTH; // a block of block_visibility.glsl
 #else
 const uint FOUND_LEAVES = 8u; // their lights fill a block of light_walk.glsl

@@ -55,7 +55,6 @@ uvec2 pointTable(uint i)
 }
 
 #include "lib/visibility/light_facet.glsl"
-#define QUEUE_LANES PROBE_GROUP
 #include "shading/occluder_walk.glsl"
 
 Facet facetOf(OccluderQuery q)
@@ -70,7 +69,7 @@ void testInstances(inout OccluderWalk w, OccluderQuery q, TreeSpace tree)
 {
     uint turns = 0u;
     while (leafCount(w.leaf) != 0u) {
-        changeTree(w, q, tree);
+        changeTree(w, q, tree, true);
         const uint flags = occluderInstance(w.instance).flags;
         const bool counts = (flags & q.layers) != 0u && (flags & q.ignored) == 0u;
         for (uint i = 0u; counts && i < w.end; ++i) {

@@ -16,9 +16,10 @@
 #define HAS_SHADOWS (shadowView.layers != 0u)
 #endif
 
-#ifdef QUEUE_LANES
-shared uint blockShares[SHADOW_BLOCK * QUEUE_LANES];
-#define BLOCK_SHARES(k) blockShares[(k) * QUEUE_LANES + gl_LocalInvocationIndex]
+// A kernel defines SHARES_LANES, the number of lanes of a group, and shared memory keeps the shares.
+#ifdef SHARES_LANES
+shared uint blockShares[SHADOW_BLOCK * SHARES_LANES];
+#define BLOCK_SHARES(k) blockShares[(k) * SHARES_LANES + gl_LocalInvocationIndex]
 #else
 uint blockShares[SHADOW_BLOCK];
 #define BLOCK_SHARES(k) blockShares[k]
@@ -37,7 +38,7 @@ uint visibleSharesAt(uint k)
 void findShares(Receiver r, uvec2 found)
 {
     uint left = HAS_SHADOWS ? found.x : 0u;
-    // All lanes stay in this loop until the last one leaves it (occluder_walk.glsl).
+    // All lanes stay in this loop until the last one leaves it: they walk together.
     while (subgroupAny(left != 0u)) {
         const bool asks = left != 0u;
         const uint k = asks ? uint(findLSB(left)) : 0u;

@@ -18,11 +18,10 @@ uvec2 listedPoints(OccluderQuery q, TreeSpace tree, uint first, uint count, bool
     do {
         const uint instance = item.instance;
         w.leaf = (instance << OCCLUDER_LEAF_SHIFT) + 1u;
-        if (walks)
-            changeTree(w, q, tree);
+        changeTree(w, q, tree, walks);
         do {
             do {
-                if (walks && !isEmpty(w.lit))
+                if (w.walks && !isEmpty(w.lit))
                     w.lit &= ~pointsHiddenBy(w, leafFirst(item.triangles), turns);
                 item.triangles = withoutFirst(item.triangles);
             } while (leafCount(item.triangles) != 0u);

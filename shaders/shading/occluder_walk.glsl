@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds which points of a light's facet (lib/visibility) a receiver sees: it walks through the tree
 // over the instances of occluders, and through the trees of the meshes that the light's cone touches.
+// The lanes of a subgroup walk together, and visit what one of them needs. Lanes that walked alone would
+// be in different meshes, and would wait for each other.
 // The includer defines occluderInstance(), occluderNode() and occluderTriangle(), which read an
-// element of an array (shared/occluder_data.h), and facetOf(). A kernel defines QUEUE_LANES, the
-// number of lanes of a group, if lanes may keep queues in shared memory.
+// element of an array (shared/occluder_data.h), and facetOf().
 #ifndef CND_SHADING_OCCLUDER_WALK
 #define CND_SHADING_OCCLUDER_WALK
 
@@ -23,18 +24,7 @@
 layout(constant_id = SPEC_WALK_TURNS) const uint mostWalkTurns = 0u;
 #endif
 
-const uint ROUND_TURNS = 1024u; // at most, of the loop in a round of a walk that finds leaves
 uint walkTurns = 0u; // of all walks of this invocation
-
-// The leaves that a lane has found and whose triangles it has not tested.
-const uint LEAF_QUEUE = 16u;
-#ifdef QUEUE_LANES
-shared uint leafQueue[LEAF_QUEUE * QUEUE_LANES];
-#define QUEUED_LEAF(i) leafQueue[(i) * QUEUE_LANES + gl_LocalInvocationIndex]
-#else
-uint leafQueue[LEAF_QUEUE];
-#define QUEUED_LEAF(i) leafQueue[i]
-#endif
 
 // What a walk is asked for.
 struct OccluderQuery {
@@ -68,16 +58,19 @@ struct WalkSpace {
 
 // A walk. It is either in the tree over instances or in the tree of a mesh.
 struct OccluderWalk {
+    // Of each lane.
     uvec2 lit; // points that no triangle has hidden so far
+    bool walks; // false: the rest of the tree hides nothing from the lane
+    uint shape; // of the facet
+    FrontSurface front;
+    WalkSpace space;
+    // The same in all lanes that walk together.
     bool inMesh;
     uint node, end;           // the next node of the tree, and the number of its nodes
     uint nextOfInstances;     // the next node of the tree over instances while the walk is in a mesh
     uint instance;            // that the walk is in
     uint firstNode, firstTriangle; // of its mesh
     uint leaf; // instances that were found and have not been entered: as OccluderNode::leaf
-    uint shape; // of the facet
-    FrontSurface front;
-    WalkSpace space;
 };
 
 // The walk before its first step: at the end of a mesh.
@@ -85,6 +78,7 @@ OccluderWalk walkFromRoot()
 {
     OccluderWalk w;
     w.lit = uvec2(0xFFFFFFFFu);
+    w.walks = true;
     w.inMesh = true;
     w.node = w.end = 0u;
     w.nextOfInstances = 0u;
@@ -102,7 +96,7 @@ uvec2 litPointsIn(OccluderWalk w, OccluderNode node)
 }
 
 // Sets what depends on the space of the tree that the walk has come to. In a mesh, the cone holds only
-// the points that the mesh may hide; if it hides none, the walk is at its end.
+// the points that the mesh may hide; if it hides none, the lane does not walk in it.
 void enterSpace(inout OccluderWalk w, OccluderQuery q, mat3 viewFromLocal, mat3 localFromView,
                 vec3 position)
 {
@@ -119,8 +113,7 @@ void enterSpace(inout OccluderWalk w, OccluderQuery q, mat3 viewFromLocal, mat3 
     w.space.slack = BOX_SLACK * (1.0 + norm1(position)) +
                     roundingOf(vectors, w.space.coordinates) * norm1(farthest);
     const uvec2 points = isEmpty(w.lit) ? uvec2(0u) : litPointsIn(w, root);
-    if (isEmpty(points))
-        w.node = w.end;
+    w.walks = !isEmpty(points);
     w.space.whole = facetCone(f, vectors, ALL_POINTS);
     w.space.cone = facetCone(f, vectors,
                              w.inMesh && !isEmpty(points) ? pointBounds(pointCount, f.shape, points)
@@ -128,8 +121,8 @@ void enterSpace(inout OccluderWalk w, OccluderQuery q, mat3 viewFromLocal, mat3 
 }
 
 // Enters the first instance of the leaf or, if the leaf is empty, returns to the tree over instances.
-// An instance that does not count has no nodes.
-void changeTree(inout OccluderWalk w, OccluderQuery q, TreeSpace tree)
+// asks: false: the lane only waits for others.
+void changeTree(inout OccluderWalk w, OccluderQuery q, TreeSpace tree, bool asks)
 {
     if (!w.inMesh)
         w.nextOfInstances = w.node;
@@ -139,14 +132,14 @@ void changeTree(inout OccluderWalk w, OccluderQuery q, TreeSpace tree)
     w.node = w.nextOfInstances;
     w.firstNode = tree.firstNode;
     w.space.ownDistance = 0.0;
-    bool counts = true;
+    bool counts = asks;
     if (w.inMesh) {
         w.instance = leafFirst(w.leaf);
         w.leaf = withoutFirst(w.leaf);
         const OccluderInstance instance = occluderInstance(w.instance);
         w.firstNode = instance.firstNode;
         w.firstTriangle = instance.firstTriangle;
-        counts = (instance.flags & q.layers) != 0u && (instance.flags & q.ignored) == 0u;
+        counts = asks && (instance.flags & q.layers) != 0u && (instance.flags & q.ignored) == 0u;
         w.node = 0u;
         viewFromLocal = instance.viewFromLocal;
         localFromView = instance.localFromView;
@@ -155,7 +148,8 @@ void changeTree(inout OccluderWalk w, OccluderQuery q, TreeSpace tree)
                                                  viewFromLocal, position);
     }
     enterSpace(w, q, viewFromLocal, localFromView, position);
-    if (!counts)
+    w.walks = w.walks && counts;
+    if (!subgroupAny(w.walks))
         w.node = w.end;
 }
 
@@ -187,53 +181,46 @@ uint turnsOfAll(uint turns)
     return mostWalkTurns != 0u ? subgroupMax(turns) : turns;
 }
 
-// Walks on until the tree ends, the queue is full, or a leaf with instances is found that may hide
-// points. Returns how many leaves are in the queue.
-uint findLeaves(inout OccluderWalk w, inout uint turns)
+bool mayWalk()
 {
-    uint queued = 0u;
-    bool found = false, walks;
-    OccluderNode node;
-    do { // This loop ends in all lanes at once (visiblePoints).
-        do {
-            ++turns;
-            if (w.node < w.end && queued < LEAF_QUEUE && !found) {
-                node = occluderNode(w.firstNode + w.node);
-                const bool touches = boxIsInCone(w, w.space.cone, node.low, node.high);
-                const bool isLeaf = touches && node.leaf != 0u;
-                if (isLeaf && w.inMesh) {
-                    QUEUED_LEAF(queued) = node.leaf;
-                    ++queued;
-                }
-                found = isLeaf && !w.inMesh;
-                w.node = touches && !isLeaf ? w.node + 1u : node.skip;
-            }
-        } while (w.node < w.end && queued < LEAF_QUEUE && !found && turns < ROUND_TURNS);
-        turns = turnsOfAll(turns) + 1u;
-        found = found && !isEmpty(litPointsIn(w, node));
-        walks = w.node < w.end && queued < LEAF_QUEUE && !found && turns < ROUND_TURNS;
-    } while (subgroupAny(walks));
-    if (found)
-        w.leaf = node.leaf;
-    return queued;
+    return mostWalkTurns == 0u || walkTurns < mostWalkTurns;
 }
 
-// Tests the triangles of the leaves in the queue.
-void testLeaves(inout OccluderWalk w, uint queued, inout uint turns)
+// Walks on to the next leaf with triangles or instances that may hide points of a lane. Returns it as
+// OccluderNode::leaf. 0: the tree has ended.
+uint nextLeaf(inout OccluderWalk w)
 {
-    uint at = 0u;
-    uint leaf = QUEUED_LEAF(0u);
+    uint leaf = 0u;
+    OccluderNode node;
     do {
-        turns = turnsOfAll(turns) + 1u;
-        if (at < queued && !isEmpty(w.lit)) {
-            w.lit &= ~pointsHiddenBy(w, leafFirst(leaf), turns);
+        do {
+            ++walkTurns;
+            node = occluderNode(w.firstNode + min(w.node, w.end - 1u));
+            const bool touches = w.walks && boxIsInCone(w, w.space.cone, node.low, node.high);
+            const bool visits = w.node < w.end && subgroupAny(touches);
+            leaf = visits ? node.leaf : 0u;
+            w.node = visits && leaf == 0u ? w.node + 1u : node.skip;
+        } while (leaf == 0u && w.node < w.end);
+        ++walkTurns;
+        if (!subgroupAny(w.walks && !isEmpty(litPointsIn(w, node))))
+            leaf = 0u;
+    } while (leaf == 0u && w.node < w.end);
+    return leaf;
+}
+
+// Tests the triangles of a leaf. 0: there are none.
+void testLeaf(inout OccluderWalk w, uint leaf)
+{
+    do {
+        uint points = 0u;
+        if (leafCount(leaf) != 0u) {
+            if (w.walks)
+                w.lit &= ~pointsHiddenBy(w, leafFirst(leaf), points);
             leaf = withoutFirst(leaf);
-            if (leafCount(leaf) == 0u) {
-                ++at;
-                leaf = QUEUED_LEAF(min(at, LEAF_QUEUE - 1u));
-            }
         }
-    } while (at < queued && !isEmpty(w.lit));
+        walkTurns += 3u + turnsOfAll(points); // loops over no points take a turn, too
+    } while (leafCount(leaf) != 0u);
+    w.walks = w.walks && !isEmpty(w.lit);
 }
 
 // Returns the points of the facet that the receiver sees. asks: false: the lane only waits for others.
@@ -241,25 +228,23 @@ void testLeaves(inout OccluderWalk w, uint queued, inout uint turns)
 uvec2 visiblePoints(OccluderQuery q, TreeSpace tree, bool asks, out bool isFinished)
 {
     OccluderWalk w = walkFromRoot();
-    const bool mayWalk = mostWalkTurns == 0u || walkTurns < mostWalkTurns;
-    bool walks = asks && mayWalk;
-    // This loop may not differ between lanes, nor may the outer loop of findLeaves(): llvmpipe would
-    // lose leaves. The loops inside them may.
-    do {
-        uint turns = 1u;
-        if (walks) {
-            const bool found = leafCount(w.leaf) != 0u;
-            if (w.inMesh ? w.node >= w.end : found)
-                changeTree(w, q, tree);
-            const uint queued = findLeaves(w, turns);
-            if (queued != 0u)
-                testLeaves(w, queued, turns);
-            const bool isDone = !w.inMesh && w.node >= w.end && leafCount(w.leaf) == 0u;
-            walks = !isEmpty(w.lit) && !isDone;
-        }
-        walkTurns += turnsOfAll(turns);
-    } while (subgroupAny(walks) && (mostWalkTurns == 0u || walkTurns < mostWalkTurns));
-    isFinished = !asks || (mayWalk && !walks);
+    bool isDone = false;
+    while (!isDone && mayWalk()) {
+        if (w.inMesh ? w.node >= w.end : leafCount(w.leaf) != 0u)
+            changeTree(w, q, tree, asks);
+        bool isLit;
+        do {
+            const uint leaf = nextLeaf(w);
+            testLeaf(w, w.inMesh ? leaf : 0u);
+            if (!w.inMesh)
+                w.leaf = leaf;
+            isLit = subgroupAny(asks && !isEmpty(w.lit));
+            ++walkTurns;
+        } while (isLit && w.inMesh && w.node < w.end && mayWalk());
+        isDone = !isLit || (!w.inMesh && w.node >= w.end && leafCount(w.leaf) == 0u);
+        ++walkTurns;
+    }
+    isFinished = !asks || isDone;
     return w.lit;
 }
 
