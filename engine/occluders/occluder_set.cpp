@@ -111,7 +111,6 @@ void OccluderSet::addMeshes(std::span<const OccluderMesh> meshes, OccluderMeshId
         return;
     recordings_.freeRetired();
     meshes_.add(meshes, ids);
-    ++number_;
 }
 
 void OccluderSet::replacePositions(OccluderMeshId id, const float* positions, uint32_t stride)
@@ -128,7 +127,6 @@ void OccluderSet::removeMeshes(std::span<const OccluderMeshId> ids)
     if (ids.empty())
         return;
     meshes_.remove(ids);
-    ++number_;
 }
 
 void OccluderSet::check(const char* call, std::span<const OccluderInstance> instances) const

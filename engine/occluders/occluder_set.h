@@ -38,7 +38,8 @@ public:
     void update(std::span<const OccluderId> ids, std::span<const OccluderInstance> instances);
     void remove(std::span<const OccluderId> ids);
 
-    // Identifies the occluders: every call that changes them gives the set another number, from 1.
+    // Identifies the occluders: every call that changes an instance, or replaces positions, gives
+    // the set another number, from 1.
     uint64_t number() const { return number_; }
     const MeshTable& meshes() const { return meshes_; }
     const InstanceTable& instances() const { return instances_; }

@@ -23,6 +23,9 @@ constexpr Pass ofShadows[] = {Pass::PrepareOccluders, Pass::PolygonFacets, Pass:
                               Pass::AskPairs,         Pass::ListOccluders, Pass::PairVisibility,
                               Pass::CountShadows};
 
+// Why a frame does not find shadows that the previous one has found.
+constexpr const char* unmoved = "surfaces, lights and occluders unchanged";
+
 constexpr Pass clustering[] = {Pass::TileClusters, Pass::SplitTiles, Pass::BlockClusters,
                                Pass::LightTree, Pass::ClusterLists};
 
@@ -101,8 +104,11 @@ void FramePasses::skipShadows(const FrameContent& c)
     if (!c.polygons)
         skip(Pass::PolygonFacets, "no polygons");
     if (c.listsKept)
-        for (const Pass pass : {Pass::PolygonFacets, Pass::ProveDark})
-            skip(pass, "surfaces and lights unchanged");
+        for (const Pass pass : {Pass::PrepareOccluders, Pass::PolygonFacets, Pass::ProveDark})
+            skip(pass, unmoved);
+    if (c.slotsKept)
+        for (const Pass pass : {Pass::AskPairs, Pass::ListOccluders, Pass::PairVisibility})
+            skip(pass, unmoved);
 }
 
 void FramePasses::skip(Pass pass, const char* reason)

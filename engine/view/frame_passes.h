@@ -51,6 +51,7 @@ struct FrameContent {
     bool depthIsProjected = true; // the host's depth image holds depth
     bool brute = false;
     bool listsKept = false; // this frame uses the lists of the previous one
+    bool slotsKept = false; // and what its pixels see of lights
     bool readsAlbedoTable = false, albedoTableFilled = false;
     bool cutByError = false; // the frame follows CND_INFLUENCE_BY_ERROR (influenceOf)
     bool countPairs = false;

@@ -48,8 +48,8 @@ void View::record(VkCommandBuffer cmd, const CndLightingFrame& asked)
     writeBindings(plan);
 
     const uint32_t slot = frame.frameSlot;
-    const bool keep = keepsLists(plan);
-    const FramePasses passes(contentOf(plan, keep));
+    const KeptWork kept = keptWork(plan);
+    const FramePasses passes(contentOf(plan, kept));
     const uint64_t recording = slots_.begin(slot);
     plans_[slot] = {module_.lights.typeCounts(), passes};
     const gpu::Frame f{module_.device, cmd, timer_, slot, frame.hostSet};
@@ -63,11 +63,11 @@ void View::record(VkCommandBuffer cmd, const CndLightingFrame& asked)
         module_.occluders->recordUpload(f, recording);
     // Counters of reused lists keep their values: those lists are not made again in this frame.
     const VkDeviceSize firstCounter =
-        keep ? offsetof(gpu::LightingCounters, listedPairs) : VkDeviceSize(0);
+        kept.lists ? offsetof(gpu::LightingCounters, listedPairs) : VkDeviceSize(0);
     f.device.CmdFillBuffer(cmd, counters_.get(), firstCounter,
                            sizeof(gpu::LightingCounters) - firstCounter, 0);
     if (shadows_)
-        shadows_->recordBegin(f, plan, counters_, keep);
+        shadows_->recordBegin(f, plan, counters_, kept);
     f.barrier();
     module_.lights.recordDeviceCounts(f, counters_);
     if (passes.runs(Pass::ShadeTiles) || passes.runs(Pass::ShadeBrute))
@@ -78,9 +78,8 @@ void View::record(VkCommandBuffer cmd, const CndLightingFrame& asked)
     f.device.endLabel(cmd);
 }
 
-// Tells whether this frame can use the lists of the previous frame. Stores what this frame's lists
-// are made for.
-bool View::keepsLists(const FramePlan& p)
+// Tells what this frame can use of the previous frame. Stores what this frame's lists are made for.
+KeptWork View::keptWork(const FramePlan& p)
 {
     const CndLightingFrame& frame = p.frame;
     ListsKey key;
@@ -97,10 +96,10 @@ bool View::keepsLists(const FramePlan& p)
     const bool same = frame.surfacesUnchanged && key.lightSet &&
                       key.rule != CND_INFLUENCE_BY_ERROR && key == lists_;
     lists_ = key;
-    return same;
+    return {.lists = same, .slots = same && p.shadows && shadows_->keepsSlots(p)};
 }
 
-FrameContent View::contentOf(const FramePlan& p, bool listsKept) const
+FrameContent View::contentOf(const FramePlan& p, const KeptWork& kept) const
 {
     const CndLightingFrame& frame = p.frame;
     const LightSet& lights = module_.lights;
@@ -111,7 +110,8 @@ FrameContent View::contentOf(const FramePlan& p, bool listsKept) const
                      .deviceLightsChanged = lights.deviceLightsChanged(),
                      .depthIsProjected = module_.gbuffer.depthIsProjected(),
                      .brute = frame.culling == CND_CULLING_BRUTE,
-                     .listsKept = listsKept,
+                     .listsKept = kept.lists,
+                     .slotsKept = kept.slots,
                      .readsAlbedoTable = frame.lobes != CND_LOBES_SUM || frame.energyCompensation,
                      .albedoTableFilled = module_.albedoTable.filled(),
                      .cutByError = influenceOf(frame) == CND_INFLUENCE_BY_ERROR,
@@ -156,7 +156,7 @@ void View::recordPasses(const gpu::Frame& f, const FramePlan& p, const FramePass
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         if (p.lights[type]) {
             if (passes.runs(Pass::ShadeTiles))
-                recordClustered(f, p, type);
+                recordClustered(f, p, passes, type);
             else
                 recordBrute(f, p, type);
         }
@@ -265,10 +265,12 @@ uint32_t View::lightsPerBatch(const FramePlan& p, uint32_t type) const noexcept
     return p.shadows && inBatches ? std::min(most, shadows_->lightsPerBatch(p.tileCount)) : most;
 }
 
-void View::recordClustered(const gpu::Frame& f, const FramePlan& p, uint32_t type) const noexcept
+void View::recordClustered(const gpu::Frame& f, const FramePlan& p, const FramePasses& passes,
+                           uint32_t type) const noexcept
 {
     const ShadeKernels& kernels = module_.kernels.shade;
     const uint32_t set = f.slot * CND_LIGHT_TYPE_COUNT + type;
+    const bool asks = passes.runs(Pass::PairVisibility);
     const auto shade = [&](const gpu::LightBatch& batch) {
         const gpu::UntimedFrame u(f);
         forEachTileClass(
@@ -283,14 +285,15 @@ void View::recordClustered(const gpu::Frame& f, const FramePlan& p, uint32_t typ
     };
     if (isDistant(type)) { // they light every surface: no lists
         inBatches(allLights(p, type), lightsPerBatch(p, type), [&](const gpu::LightBatch& batch) {
-            if (p.shadows)
-                shadows_->recordBatch(f, type, batch, {0, 0}, p.tileCount);
+            if (asks)
+                shadows_->recordBatch(f, type, batch, shadows_->firstSlotOf(p, type, batch), {0, 0},
+                                      p.tileCount);
             if (p.shadows && p.frame.countPairs)
                 shadows_->recordCounts(f, p, type, batch);
             shade(batch);
         });
     } else {
-        if (p.shadows)
+        if (asks)
             shadows_->recordListed(f, p, type);
         if (p.shadows && p.frame.countPairs)
             shadows_->recordCounts(f, p, type, {});
@@ -384,7 +387,7 @@ void View::recordBrute(const gpu::Frame& f, const FramePlan& p, uint32_t type) c
                 const glm::uvec2 tiles(tilesAlong(to.x - from.x), tilesAlong(to.y - from.y));
                 if (p.shadows) {
                     u.barrier(); // the rectangle before this one has the same slots
-                    shadows_->recordBatch(u, type, batch, from, tiles);
+                    shadows_->recordBatch(u, type, batch, 0, from, tiles);
                 }
                 kernels.brute.dispatch(u, sets_.shadeBrute.set(f.slot), {batch, from, to}, tiles.x,
                                        tiles.y);

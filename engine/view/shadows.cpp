@@ -59,22 +59,29 @@ gpu::Buffer createScratch(const Module& module, const char* what, VkDeviceSize b
     return gpu::createBuffer(module.device, what, bytes, storage | more, gpu::MemoryUse::Scratch);
 }
 
-// Returns the number of slots of a view with so many tiles.
-VkDeviceSize slotCount(const gpu::Device& device, VkDeviceSize budget, VkDeviceSize maxTiles)
+// Returns the number of slots of a view with so many tiles: those of lists and, if the device
+// allows it, those of a distant light. There are at least as many as tiles, since lights of a batch
+// take one at each.
+VkDeviceSize slotCount(const gpu::Device& device, VkDeviceSize budget, uint32_t maxTiles)
 {
     const VkDeviceSize most = device.limits.maxStorageBufferRange;
-    if (maxTiles * slotBytes > most)
+    const VkDeviceSize ofTiles = Shadows::distantBytes(maxTiles);
+    if (ofTiles > most)
         gpu::failUnsupported("CndLightingViewDesc: shadows of maxWidth x maxHeight pixels need a "
                              "buffer of " +
-                             std::to_string(maxTiles * slotBytes) +
+                             std::to_string(ofTiles) +
                              " bytes, more than the device's maxStorageBufferRange, " +
                              std::to_string(most));
-    return std::max(budget / slotBytes, maxTiles);
+    return std::min(budget / slotBytes + maxTiles, most / slotBytes);
 }
 
 } // namespace
 
-// Every light of a batch takes a slot at each tile, so there are at least as many slots as tiles.
+VkDeviceSize Shadows::distantBytes(uint32_t tiles)
+{
+    return tiles * slotBytes;
+}
+
 Shadows::Shadows(const Module& module, const Clusters& clusters, uint32_t slots,
                  VkDeviceSize budget, uint32_t maxTiles)
     : module_(module),
@@ -86,7 +93,8 @@ Shadows::Shadows(const Module& module, const Clusters& clusters, uint32_t slots,
       asked_(createScratch(module, "asked pairs",
                            sizeof(gpu::AskedPairs) +
                                VkDeviceSize(capacity_) * gpu::ASKED_WORDS * sizeof(uint32_t),
-                           VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT)),
+                           VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                               VK_BUFFER_USAGE_TRANSFER_DST_BIT)),
       bounds_(createScratch(module, "bounds of samples",
                             clusters.firstOfBlocks() * sizeof(gpu::SampleBounds))),
       pageSlots_(
@@ -211,14 +219,41 @@ void Shadows::writeBindings(const FramePlan& plan, const Inputs& in) const
     }
 }
 
-void Shadows::recordBegin(const gpu::Frame& f, const FramePlan& p, const gpu::Buffer& counters,
-                          bool keepsLists) const noexcept
+bool Shadows::keepsSlots(const FramePlan& p) const noexcept
 {
-    const gpu::ShadowView parameters = shadowView(module_, p);
+    VkDeviceSize lights = 0;
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        lights += isDistant(type) ? p.lights[type] : 0;
+    return !module_.hostKernels.findsPoints() &&
+           lights * p.tileCount.x * p.tileCount.y <= slots_.size / slotBytes - capacity_;
+}
+
+uint32_t Shadows::firstSlotOf(const FramePlan& p, uint32_t type,
+                              const gpu::LightBatch& batch) const noexcept
+{
+    if (!keepsSlots(p))
+        return 0;
+    uint32_t before = batch.first - p.trees[type].firstLight;
+    for (uint32_t other = 0; other < type; ++other)
+        before += isDistant(other) ? p.lights[other] : 0;
+    return capacity_ + before * p.tileCount.x * p.tileCount.y;
+}
+
+void Shadows::recordBegin(const gpu::Frame& f, const FramePlan& p, const gpu::Buffer& counters,
+                          const KeptWork& kept) const noexcept
+{
+    gpu::ShadowView parameters = shadowView(module_, p);
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        parameters.distantSlots[type] = firstSlotOf(p, type, {0, 0});
+    parameters.distantStride = keepsSlots(p) ? p.tileCount.x * p.tileCount.y : 0;
     std::memcpy(views_.mapped + f.slot * viewStride, &parameters, sizeof parameters);
-    const VkDeviceSize first = keepsLists ? offsetof(gpu::ShadowCounters, slots) : 0;
+    const VkDeviceSize first = kept.slots   ? offsetof(gpu::ShadowCounters, unfinished)
+                               : kept.lists ? offsetof(gpu::ShadowCounters, slots)
+                                            : 0;
     f.device.CmdFillBuffer(f.cmd, counters.get(), gpu::SHADOW_COUNTERS_AT + first,
                            sizeof(gpu::ShadowCounters) - first, 0);
+    f.device.CmdFillBuffer(f.cmd, asked_.get(), offsetof(gpu::AskedPairs, written),
+                           sizeof(gpu::AskedPairs) - offsetof(gpu::AskedPairs, written), 0);
 }
 
 void Shadows::recordPrepare(const gpu::Frame& f, const FramePlan& p) const noexcept
@@ -236,11 +271,14 @@ void Shadows::recordPolygons(const gpu::Frame& f, const FramePlan& p) const noex
 
 void Shadows::recordListed(const gpu::Frame& f, const FramePlan& p, uint32_t type) const noexcept
 {
-    gpu::AskedPairs none{};
-    none.records = {.groupsX = gpu::ASK_ROW / gpu::LIST_OCCLUDERS_GROUP, .groupsZ = 1};
+    gpu::AskedPairs none{.groups = {gpu::ASK_ROW / gpu::LIST_OCCLUDERS_GROUP, 0, 1}};
     for (gpu::WorkList& kind : none.kinds)
         kind = {.groupsX = gpu::ASK_ROW, .groupsZ = 1};
-    f.device.CmdUpdateBuffer(f.cmd, asked_.get(), 0, sizeof none, &none);
+    const VkBufferCopy end{.srcOffset = offsetof(gpu::AskedPairs, written),
+                           .dstOffset = offsetof(gpu::AskedPairs, first),
+                           .size = sizeof none.first};
+    f.device.CmdUpdateBuffer(f.cmd, asked_.get(), 0, offsetof(gpu::AskedPairs, first), &none);
+    f.device.CmdCopyBuffer(f.cmd, asked_.get(), asked_.get(), 1, &end);
     f.barrier();
     const uint32_t tiles = p.tileCount.x * p.tileCount.y;
     module_.kernels.askPairs.dispatchInRows(f, askSets_.set(setOf(f, type)),
@@ -256,15 +294,14 @@ void Shadows::recordListed(const gpu::Frame& f, const FramePlan& p, uint32_t typ
         {.capacity = capacity_,
          .lightType = type,
          .fromHost = module_.kernels.shade.pairKinds(type) == 1},
-        asked_, offsetof(gpu::AskedPairs, records));
+        asked_, offsetof(gpu::AskedPairs, groups));
     f.barrier();
     const gpu::UntimedFrame untimed(f); // the kinds are found at the same time
     for (uint32_t kind = 0; kind < module_.kernels.shade.pairKinds(type); ++kind)
         module_.kernels.shade.visibility(type, kind)
-            .dispatchIndirect(
-                untimed, visibilitySets_.set(setOf(f, type)),
-                {.batch = {0, 0}, .first = {0, 0}, .tileCountX = 0, .capacity = capacity_}, asked_,
-                offsetof(gpu::AskedPairs, kinds) + kind * sizeof(gpu::WorkList));
+            .dispatchIndirect(untimed, visibilitySets_.set(setOf(f, type)), {.capacity = capacity_},
+                              asked_,
+                              offsetof(gpu::AskedPairs, kinds) + kind * sizeof(gpu::WorkList));
     f.timer.stamp(f.cmd, visibilitySets_.name());
     f.barrier();
 }
@@ -276,13 +313,17 @@ uint32_t Shadows::lightsPerBatch(glm::uvec2 tileCount) const noexcept
 }
 
 void Shadows::recordBatch(const gpu::Frame& f, uint32_t type, const gpu::LightBatch& batch,
-                          glm::uvec2 firstPixel, glm::uvec2 tileCount) const noexcept
+                          uint32_t firstSlot, glm::uvec2 firstPixel,
+                          glm::uvec2 tileCount) const noexcept
 {
     module_.kernels.shade.visibility(type, gpu::PAIRS_WALKED)
-        .dispatch(
-            f, visibilitySets_.set(setOf(f, type)),
-            {.batch = batch, .first = firstPixel, .tileCountX = tileCount.x, .capacity = capacity_},
-            tileCount.x, tileCount.y, batch.count);
+        .dispatch(f, visibilitySets_.set(setOf(f, type)),
+                  {.batch = batch,
+                   .first = firstPixel,
+                   .tileCountX = tileCount.x,
+                   .firstSlot = firstSlot,
+                   .capacity = capacity_},
+                  tileCount.x, tileCount.y, batch.count);
     f.barrier();
 }
 
@@ -293,6 +334,7 @@ void Shadows::recordCounts(const gpu::Frame& f, const FramePlan& p, uint32_t typ
         module_.kernels.countShadows[tileClass].dispatchIndirect(
             f, countSets_.set(setOf(f, type)),
             {.batch = batch,
+             .firstSlot = isDistant(type) ? firstSlotOf(p, type, batch) : 0,
              .isDistant = isDistant(type),
              .writesImage = p.frame.shadowImage != VK_NULL_HANDLE},
             clusters_.surfaces(), tileWorkListAt(gpu::ANY_HEIGHT, tileClass));

@@ -12,6 +12,12 @@
 namespace candelabra::lighting
 {
 
+// What a frame uses of the previous one instead of making it again.
+struct KeptWork {
+    bool lists = false; // clusters and lists, and the occluders of the view
+    bool slots = false; // the visibility of all lights in view; only together with lists
+};
+
 class Shadows
 {
 public:
@@ -21,6 +27,9 @@ public:
             uint32_t maxTiles);
     Shadows(const Shadows&) = delete;
     Shadows& operator=(const Shadows&) = delete;
+
+    // Returns the bytes of the slots of a distant light.
+    static VkDeviceSize distantBytes(uint32_t tiles);
 
     void makeRoom(uint32_t places) { prepared_.makeRoom(places); }
 
@@ -42,21 +51,30 @@ public:
     gpu::Binding slots() const { return gpu::Binding::of(gpu::SHADOW_SLOTS, slots_); }
     gpu::Binding pageSlots() const { return gpu::Binding::of(gpu::SHADOW_PAGE_SLOTS, pageSlots_); }
 
-    // Writes the parameters of the frame, after the upload of its occluders. Clears the counters;
-    // those of clusters without slots keep their values if lists are kept.
+    // Tells whether a frame leaves the visibility of all of its lights in the slots. Otherwise its
+    // distant lights take those of the lists, or rays of the host find other points each time.
+    bool keepsSlots(const FramePlan& plan) const noexcept;
+    // Returns the first slot of a batch of distant lights.
+    uint32_t firstSlotOf(const FramePlan& plan, uint32_t type,
+                         const gpu::LightBatch& batch) const noexcept;
+
+    // Writes the parameters of the frame, after the upload of its occluders. Clears the counters
+    // except those of what is kept.
     void recordBegin(const gpu::Frame& frame, const FramePlan& plan, const gpu::Buffer& counters,
-                     bool keepsLists) const noexcept;
+                     const KeptWork& kept) const noexcept;
     // Records what the other passes need, for frames that prepare lights. The caller puts barriers
     // before and after, and one between.
     void recordPrepare(const gpu::Frame& frame, const FramePlan& plan) const noexcept;
     void recordPolygons(const gpu::Frame& frame, const FramePlan& plan) const noexcept;
-    // Finds the visibility of every light in the lists of a type. Ends with a barrier.
+    // Finds the visibility of every light in the lists of a type, whose slots follow those of the
+    // types before. Ends with a barrier.
     void recordListed(const gpu::Frame& frame, const FramePlan& plan, uint32_t type) const noexcept;
     // Returns how many lights recordBatch() can take at once.
     uint32_t lightsPerBatch(glm::uvec2 tileCount) const noexcept;
     // Finds the visibility of the lights of a batch in tiles from a pixel on. Ends with a barrier.
     void recordBatch(const gpu::Frame& frame, uint32_t type, const gpu::LightBatch& batch,
-                     glm::uvec2 firstPixel, glm::uvec2 tileCount) const noexcept;
+                     uint32_t firstSlot, glm::uvec2 firstPixel,
+                     glm::uvec2 tileCount) const noexcept;
     // Counts what recordListed(), or recordBatch() with this batch for all tiles, has found.
     void recordCounts(const gpu::Frame& frame, const FramePlan& plan, uint32_t type,
                       const gpu::LightBatch& batch) const noexcept;
@@ -73,7 +91,7 @@ private:
     const Module& module_;
     const Clusters& clusters_;
     PreparedOccluders prepared_;
-    uint32_t capacity_; // of slots that lists may take
+    uint32_t capacity_; // of slots that lists may take; those of distant lights follow
     gpu::Buffer slots_, asked_, bounds_, pageSlots_, points_, views_;
     gpu::Bindings askSets_, visibilitySets_, countSets_; // per slot and type
     gpu::Bindings listSets_, polygonSets_;               // per slot

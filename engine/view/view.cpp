@@ -43,19 +43,19 @@ CndLightingViewDesc checkedDesc(const gpu::Device& device, CndLightingViewDesc d
             gpu::failArgument("CndLightingViewDesc: maxWidth and maxHeight must be 1..16384, are " +
                               std::to_string(desc.maxWidth) + " and " +
                               std::to_string(desc.maxHeight));
+    const VkDeviceSize range = device.limits.maxStorageBufferRange;
+    const VkDeviceSize ofDistant =
+        Shadows::distantBytes(tilesAlong(desc.maxWidth) * tilesAlong(desc.maxHeight));
     if (!desc.listBudget)
-        desc.listBudget =
-            std::min<VkDeviceSize>(defaultListBudget, device.limits.maxStorageBufferRange);
+        desc.listBudget = std::min(defaultListBudget, range);
     if (!desc.shadowBudget)
-        desc.shadowBudget =
-            std::min<VkDeviceSize>(defaultShadowBudget, device.limits.maxStorageBufferRange);
+        desc.shadowBudget = std::min(defaultShadowBudget, range - std::min(ofDistant, range / 2));
     for (const auto& [member, budget] :
          {std::pair("listBudget", desc.listBudget), std::pair("shadowBudget", desc.shadowBudget)})
-        if (budget > device.limits.maxStorageBufferRange)
-            gpu::failUnsupported(std::string("CndLightingViewDesc: ") + member + " " +
-                                 std::to_string(budget) +
-                                 " exceeds the device's maxStorageBufferRange " +
-                                 std::to_string(device.limits.maxStorageBufferRange));
+        if (budget > range)
+            gpu::failUnsupported(
+                std::string("CndLightingViewDesc: ") + member + " " + std::to_string(budget) +
+                " exceeds the device's maxStorageBufferRange " + std::to_string(range));
     return desc;
 }
 

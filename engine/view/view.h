@@ -37,6 +37,7 @@ public:
     // Makes room for so many occluders, in the same way.
     void makeRoomForOccluders(uint32_t places)
     {
+        lists_ = {}; // as in makeRoom()
         if (shadows_)
             shadows_->makeRoom(places);
     }
@@ -51,7 +52,7 @@ private:
         uint32_t layers = 0;
         CndInfluenceRule rule = CND_INFLUENCE_GIVEN;
         bool shadows = false;   // lists without slots count as having no pages
-        uint64_t occluders = 0; // number of the occluder set that the proofs used
+        uint64_t occluders = 0; // number of the occluder set
         bool operator==(const ListsKey&) const = default;
     };
 
@@ -60,8 +61,8 @@ private:
     void reportUnlisted(uint32_t slot, const CndLightingStats& stats) const noexcept;
 
     // record.cpp
-    bool keepsLists(const FramePlan& plan);
-    FrameContent contentOf(const FramePlan& plan, bool listsKept) const;
+    KeptWork keptWork(const FramePlan& plan);
+    FrameContent contentOf(const FramePlan& plan, const KeptWork& kept) const;
     void recordPasses(const gpu::Frame& f, const FramePlan& plan,
                       const FramePasses& passes) noexcept;
     void recordProjectDepth(const gpu::Frame& f, const FramePlan& plan) const noexcept;
@@ -71,7 +72,8 @@ private:
     void recordTileCounts(const gpu::Frame& f) const noexcept;
     void recordLists(const gpu::Frame& f, const FramePlan& plan,
                      const FramePasses& passes) const noexcept;
-    void recordClustered(const gpu::Frame& f, const FramePlan& plan, uint32_t type) const noexcept;
+    void recordClustered(const gpu::Frame& f, const FramePlan& plan, const FramePasses& passes,
+                         uint32_t type) const noexcept;
     void recordUnlisted(const gpu::Frame& f, const FramePlan& plan, uint32_t type) const noexcept;
     void recordCountPairs(const gpu::Frame& f, const FramePlan& plan, uint32_t type) const noexcept;
     void recordBrute(const gpu::Frame& f, const FramePlan& plan, uint32_t type) const noexcept;

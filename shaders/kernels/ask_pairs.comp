@@ -81,11 +81,12 @@ shared uint firstSlot; // of the present page
 // need.
 uint takeSlots(uint count)
 {
-    const uint first = atomicAdd(asked.records.count, count);
-    if (first + count <= params.capacity) {
-        atomicMax(asked.records.groupsY, (first + count + ASK_ROW - 1u) / ASK_ROW);
-        atomicMax(asked.records.first, first + count);
-        atomicMax(shadowCounters.slots, first + count);
+    const uint first = atomicAdd(asked.taken, count);
+    const uint end = first + count;
+    if (end <= params.capacity) {
+        atomicMax(asked.groups[1], (end - asked.first + ASK_ROW - 1u) / ASK_ROW);
+        atomicMax(asked.written, end);
+        atomicMax(shadowCounters.slots, end);
     } else
         atomicAdd(shadowCounters.missingSlots, count);
     return first;

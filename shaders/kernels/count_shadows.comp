@@ -56,7 +56,7 @@ void main()
     if (depth != frameParams.clearDepth) {
         uint page = 0u;
         if (params.isDistant != 0u)
-            addSlots(counts, tile * params.batch.count, params.batch.count);
+            addSlots(counts, params.firstSlot + tile * params.batch.count, params.batch.count);
         else
             page = lists[clusterOf(tile, depth)];
         while (page != LIST_EMPTY && page != LIST_UNLISTED && page != LIST_LONG) {

@@ -242,10 +242,10 @@ void appendTo(uint kind, bool isOfKind, uint slot)
 
 void main()
 {
-    const uint slot = gl_WorkGroupID.y * ASK_ROW + gl_WorkGroupID.x * LIST_OCCLUDERS_GROUP +
-                      gl_LocalInvocationIndex;
-    const bool exists = slot < asked.records.first;
-    const AskRecord ask = askRecord(exists ? slot : 0u);
+    const uint slot = asked.first + gl_WorkGroupID.y * ASK_ROW +
+                      gl_WorkGroupID.x * LIST_OCCLUDERS_GROUP + gl_LocalInvocationIndex;
+    const bool exists = slot < asked.written;
+    const AskRecord ask = askRecord(exists ? slot : asked.first);
     const FacetShape given = facetShape(ask.light, params.lightType);
     const SampleBounds samples = bounds[ask.cluster];
     ShaftEnds ends;

@@ -68,7 +68,7 @@ void main()
     uvec2 pixel = pixelOfLane(gl_LocalInvocationIndex);
     if (ofBatch) {
         const uint tile = gl_WorkGroupID.y * params.tileCountX + gl_WorkGroupID.x;
-        slot = tile * params.batch.count + gl_WorkGroupID.z;
+        slot = params.firstSlot + tile * params.batch.count + gl_WorkGroupID.z;
         ask = AskRecord(0u, 0u, params.batch.first + gl_WorkGroupID.z, 0u);
         pixel += params.first + TILE_SIZE * gl_WorkGroupID.xy;
     } else {

@@ -84,8 +84,12 @@ struct ShadowView {
     uint points;       // as SPEC_VISIBILITY_POINTS
     uint walkTurns;    // as SPEC_WALK_TURNS
     uint asks;         // 0: the frame has no shadows, and its slots are not written
+    // The first slot of a batch of distant lights: distantSlots of their type + the index of the
+    // batch's first light * distantStride. Unsigned sums wrap.
+    uint distantSlots[LIGHT_TYPE_COUNT];
+    uint distantStride;
 };
-GPU_SIZE(ShadowView, 72)
+GPU_SIZE(ShadowView, 112)
 
 // Bindings of the kernels that walk through occluders, and of the forward set.
 const uint SHADOW_INSTANCES = 25u;
@@ -138,12 +142,15 @@ const uint PAIR_KINDS = 3u;
 // The head of the buffer of asked pairs. After it are the AskRecords, for each kind the slots of
 // its pairs, and the items (kernels/common/asked_pairs.glsl).
 struct AskedPairs {
-    WorkList records; // WorkList::count also counts slots that there were not; all records
-                      //   before WorkList::first are written
-    WorkList kinds[PAIR_KINDS]; // a group per pair
+    uint groups[3];             // of list_occluders, in rows, as WorkList::groupsX, Y and Z
     uint items;                 // also counts items that there was no room for
+    WorkList kinds[PAIR_KINDS]; // a group per pair
+    uint first;                 // slot of the light type
+    // Of all light types so far. The members above begin anew with each type.
+    uint written; // all records before it are written
+    uint taken;   // slots; also counts slots that there were not
 };
-GPU_SIZE(AskedPairs, 84)
+GPU_SIZE(AskedPairs, 88)
 const uint ITEMS_PER_SLOT = 4u; // for which there is room
 // Words per slot, after AskedPairs.
 const uint ASKED_WORDS = RECORD_WORDS + PAIR_KINDS + ITEM_WORDS * ITEMS_PER_SLOT;
@@ -172,10 +179,10 @@ struct ShadowCounters {
     // The next three are counted when lists are made. A frame that keeps the lists keeps them.
     uint missingSlots;
     uint triedProofs, wonProofs;
+    uint slots; // that lists take. A frame that keeps the slots keeps it.
     // The others are counted in every frame.
-    uint slots;             // the most that one light type took
     uint unfinished;        // pairs
-    uint kinds[PAIR_KINDS]; // how many pairs of cluster and light are of each kind
+    uint kinds[PAIR_KINDS]; // how many pairs of cluster and light were found of each kind
     uvec2 asked;            // 64 bit: low, high
     uvec2 partly;
     uvec2 dark;
@@ -266,18 +273,20 @@ struct PairVisibilityParams {
     LightBatch batch; // the lights at every tile; a count of 0: the pairs are those of the kind
     uvec2 first;      // with a batch: first pixel of the first tile
     uint tileCountX;  // with a batch: tiles in a row
+    uint firstSlot;   // with a batch: of its slots
     uint capacity;    // as in AskPairsParams
 };
-GPU_SIZE(PairVisibilityParams, 24)
+GPU_SIZE(PairVisibilityParams, 28)
 
 // --- count_shadows: counts what pair_visibility has found, 8x8 pixels per group. Bindings are as
 // in count_pairs.
 struct CountShadowsParams {
     LightBatch batch; // as in ShadeTilesParams
+    uint firstSlot;
     uint isDistant;
     uint writesImage; // 1: also adds its counts to the image (SHADE_PAIRS)
 };
-GPU_SIZE(CountShadowsParams, 16)
+GPU_SIZE(CountShadowsParams, 20)
 
 // --- prepare_occluders: transforms instances to view space, one lane per instance
 const uint PREPARE_OCCLUDERS_GROUP = 64u;

@@ -468,7 +468,7 @@ LightingResult LightingTest::run(const CpuGBuffer& g, const std::vector<CndLight
     CndError error{};
     const CndLighting lighting = options.lighting ? options.lighting : lightingFor(options);
     const CndLightingViewDesc viewDesc{.structSize = sizeof viewDesc,
-                                       .maxWidth = g.width,
+                                       .maxWidth = std::max(g.width, options.maxWidth),
                                        .maxHeight = g.height,
                                        .listBudget = options.listBudget,
                                        .shadowBudget = options.shadowBudget};

@@ -81,6 +81,7 @@ struct RunOptions {
     CndSpecularMethod specular = CND_SPECULAR_KARIS;
     CndCulling culling = CND_CULLING_CLUSTERED;
     VkDeviceSize listBudget = 0, shadowBudget = 0;
+    uint32_t maxWidth = 0; // of the view; 0: the width of the surfaces
     bool countPairs = false;
     const CndDeviceDesc* host = nullptr; // instead of the fixture's device, for interposed
                                          // functions

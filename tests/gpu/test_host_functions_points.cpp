@@ -190,6 +190,10 @@ TEST_F(VisibilityFromHost, RaysGiveTheImageOfOurWalk)
             agree(traced.radiance, unlisted.radiance, cndIsDistant(type) ? batchesOnLlvmpipe : 0))
             << type;
         EXPECT_EQ(unlisted.stats.unlistedClusters > 0, !cndIsDistant(type)) << type;
+        // Frames in which nothing has moved ask again: the module does not know what the rays hit.
+        const LightingResult still = draw(host, lights, {.frames = 2, .unchanged = true});
+        EXPECT_TRUE(sameBits(still, traced)) << type;
+        EXPECT_EQ(still.stats.walkedSlots, traced.stats.shadowSlots) << type;
         RunOptions off;
         off.withFrame = [](CndLightingFrame& frame) { frame.shadowsOff = VK_TRUE; };
         const LightingResult unshadowed = draw(host, lights, off);

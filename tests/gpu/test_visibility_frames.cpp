@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frames with shadows: lights of all types, found through lists, without lists and by brute force,
 // while lights and occluders change.
+#include <algorithm>
 #include <iostream>
 #include <random>
 #include <set>
@@ -127,6 +128,11 @@ protected:
     double uniform(double low, double high)
     {
         return low + (high - low) * double(random_()) / 4294967296.0;
+    }
+    static bool runs(const CndLightingStats& stats, const std::string& pass)
+    {
+        return std::any_of(stats.passes, stats.passes + stats.passCount,
+                           [&](const CndPassPlan& p) { return p.name == pass && !p.skipped; });
     }
     static std::vector<CndLight> everyType(const CpuGBuffer& g, uint32_t count)
     {
@@ -494,6 +500,100 @@ TEST_F(VisibilityFrames, ShadowsMayComeWhileNothingMoves)
     EXPECT_FALSE(sameBits(draw(lights, options), shadowed));
     options.changeFrame = [&](CndLightingFrame& f) { f.shadowsOff = drawn % 3 == 1; };
     EXPECT_TRUE(sameBits(draw(lights, options), shadowed));
+}
+
+// A frame in which nothing has moved keeps what its pixels see of lights, and has the bits of one
+// that asks.
+TEST_F(VisibilityFrames, StillFramesAskNothing)
+{
+    std::vector<CndLight> lights;
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        for (const CndLight& light : lightsOf(CndLightType(type), surfaces,
+                                              cndIsDistant(CndLightType(type)) ? 1 : 8, type + 1))
+            lights.push_back(light);
+    addBoxes(20, 3, 9);
+    RunOptions still{.countPairs = true, .frames = 3, .unchanged = true};
+    still.beforeFrame = [&] { // a mesh without instances moves nothing
+        const float triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+        addMesh({.positions = triangle, .vertexCount = 3, .triangleCount = 1});
+    };
+    // Two distant lights have room in a view twice as wide. With the small budget some lists find
+    // no slots.
+    const std::pair<VkDeviceSize, bool> cases[] = {{0, true}, {0, false}, {300 * 256, true}};
+    for (const auto& [budget, fits] : cases) {
+        const uint32_t width = surfaces.width * (fits ? 2 : 1);
+        still.maxWidth = width;
+        still.shadowBudget = budget;
+        const LightingResult asking =
+            draw(lights, {.shadowBudget = budget, .maxWidth = width, .countPairs = true});
+        const LightingResult kept = draw(lights, still);
+        EXPECT_TRUE(agree(asking.radiance, kept.radiance));
+        const CndLightingStats &a = asking.stats, &k = kept.stats;
+        for (const char* pass : {"ask_pairs", "list_occluders", "pair_visibility"}) {
+            EXPECT_TRUE(runs(a, pass)) << pass;
+            EXPECT_EQ(runs(k, pass), !fits) << pass;
+        }
+        for (const char* pass : {"prepare_occluders", "polygon_facets", "prove_dark"})
+            EXPECT_FALSE(runs(k, pass)) << pass;
+        EXPECT_GT(a.litSlots + a.listedSlots + a.walkedSlots, 200u);
+        EXPECT_EQ(k.litSlots + k.listedSlots + k.walkedSlots > 0, !fits);
+        EXPECT_EQ(a.unlistedClusters > 0, budget > 0);
+        EXPECT_EQ(k.missingShadowSlots > 0, budget > 0);
+        if (budget)
+            continue; // the schedule decides which lists find slots
+        EXPECT_TRUE(sameBits(asking, kept));
+        EXPECT_EQ(a.shadowSlots, k.shadowSlots);
+        EXPECT_EQ(a.askedPairs, k.askedPairs);
+        EXPECT_EQ(a.partlyLitPairs, k.partlyLitPairs);
+        EXPECT_EQ(a.darkPairs, k.darkPairs);
+        EXPECT_EQ(a.wonProofs, k.wonProofs);
+    }
+}
+
+// What moves is asked for again, and kept from then on.
+TEST_F(VisibilityFrames, WhatMovesIsAskedForAgain)
+{
+    auto lights = everyType(surfaces, 4);
+    addBoxes(20, 3, 10);
+    const LightingResult before = draw(lights);
+    int drawn = 0;
+    const auto moveOccluder = [&] {
+        instances_[0].worldFromMesh[3] += 1;
+        CndError error{};
+        EXPECT_EQ(cndUpdateOccluders(lighting(), 1, occluders_.data(), instances_.data(), &error),
+                  CND_SUCCESS)
+            << error.message;
+    };
+    const auto moveLight = [&] {
+        lights[6].position[0] += 0.5f;
+        setLights(lighting(), lights);
+    };
+    const std::function<void()> moves[] = {moveOccluder, moveLight, [] {}};
+    for (const std::function<void()>& move : moves)
+        for (const int frames : {3, 4}) { // the third one moves
+            const bool movesCamera = &move == &moves[2];
+            drawn = 0;
+            RunOptions options{.maxWidth = 8 * surfaces.width, .frames = frames};
+            options.unchanged = true;
+            options.beforeFrame = [&] {
+                if (++drawn == 3)
+                    move();
+            };
+            options.changeFrame = [&](CndLightingFrame& frame) {
+                if (movesCamera && drawn == 3) {
+                    frame.surfacesUnchanged = VK_FALSE;
+                    frame.camera.viewFromWorld[12] += 0.3;
+                }
+            };
+            const LightingResult result = draw(lights, options);
+            EXPECT_EQ(runs(result.stats, "pair_visibility"), frames == 3);
+            RunOptions fresh;
+            fresh.withFrame = [&](CndLightingFrame& frame) {
+                frame.camera.viewFromWorld[12] += movesCamera ? 0.3 : 0;
+            };
+            EXPECT_TRUE(sameBits(result, draw(lights, fresh)));
+            EXPECT_FALSE(sameBits(result, before));
+        }
 }
 
 // A module without shadows has none of their passes.

@@ -288,4 +288,58 @@ TEST(Lifetimes, ListsAreNotReusedAfterAFailedLightSet)
     EXPECT_GT(failing, 10u);
 }
 
+// No kernel looks for shadows in a frame in which nothing has moved. Occluders that cannot be added
+// may still have led to larger buffers, and the next frame asks again.
+TEST(Lifetimes, StillFramesDispatchNothingForShadows)
+{
+    constexpr const char* kernels[] = {"prepare_occluders", "polygon_facets", "prove_dark",
+                                       "ask_pairs",         "list_occluders", "pair_visibility"};
+    const float triangle[] = {0, 0, -1, 1, 0, -1, 0, 1, -1};
+    std::vector<CndLight> lights(3, {.influenceRadius = 5, .polygon = &polygons[0]});
+    lights[0].type = CND_LIGHT_SPHERE;
+    lights[0].radius = 0.1f;
+    lights[1].type = CND_LIGHT_POLYGON;
+    lights[1].axisU[0] = lights[1].axisV[1] = 0.5f;
+    lights[2].type = CND_LIGHT_DIRECTIONAL;
+    lights[2].direction[1] = -1;
+    std::vector<CndOccluderInstance> instances(
+        1000, {.worldFromMesh = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}});
+    std::vector<CndOccluderId> ids(instances.size());
+    uint64_t failing = 0;
+    for (bool failed = true; failed && !HasFailure(); ++failing) {
+        MockVulkan vulkan;
+        Lighting lighting = std::move(Lighting::create(vulkan.desc(), {.framesInFlight = 1,
+                                                                       .timestamps = VK_TRUE,
+                                                                       .shadows = {.points = 32}})
+                                          .value());
+        LightingView view =
+            std::move(lighting.createView({.maxWidth = 64, .maxHeight = 64}).value());
+        ASSERT_TRUE(lighting.setLights(lights, {0, 0, 0}));
+        const CndOccluderMeshId mesh =
+            lighting.addOccluderMesh({.positions = triangle, .vertexCount = 3, .triangleCount = 1})
+                .value();
+        for (CndOccluderInstance& instance : instances)
+            instance.mesh = mesh;
+        const auto dispatched = [&] {
+            CndLightingFrame frame = testFrame(64, 64);
+            frame.surfacesUnchanged = VK_TRUE;
+            EXPECT_TRUE(view.record(MockVulkan::commandBuffer(), frame));
+            vulkan.finish(vulkan.submit());
+            const CndLightingStats stats = view.stats(0).value().value();
+            return std::ranges::count_if(kernels, [&](const std::string_view kernel) {
+                return std::any_of(stats.kernelTimes, stats.kernelTimes + stats.kernelTimeCount,
+                                   [&](const CndKernelTime& t) { return t.name == kernel; });
+            });
+        };
+        ASSERT_TRUE(lighting.addOccluders(std::span(instances).first(1), std::span(ids).first(1)));
+        EXPECT_EQ(dispatched(), std::ssize(kernels));
+        EXPECT_EQ(dispatched(), 0) << "nothing has changed";
+        vulkan.failingCall = vulkan.failableCalls.size() + failing;
+        failed = !lighting.addOccluders(instances, ids);
+        vulkan.failingCall = UINT64_MAX;
+        EXPECT_EQ(dispatched(), std::ssize(kernels)) << vulkan.failed << ", call " << failing;
+    }
+    EXPECT_GT(failing, 5u);
+}
+
 } // namespace candelabra::test

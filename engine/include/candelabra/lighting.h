@@ -198,11 +198,12 @@ typedef struct CndLightingViewDesc {
     // light tree. This is slower and gives the same image except for rounding.
     // CndLightingStats::unlistedClusters counts these clusters.
     VkDeviceSize listBudget;
-    // Bytes for what pixels see of lights, with CndLightingDesc::shadows; 0: default, 128 MiB (less
-    // if the device's maxStorageBufferRange is smaller). Every light on the list of a cluster takes
-    // 256 of them, and 60 more beside the budget. Clusters for which there is no room are shaded by
-    // walking the light tree, as those without a list. At least 256 bytes per 8x8 pixel tile of the
-    // largest frame are allocated, but lists use no more than the budget.
+    // Bytes for what pixels see of lights, with CndLightingDesc::shadows. Every light on the list
+    // of a cluster takes 256 of them, and 60 more beside the budget. Clusters for which there is no
+    // room are shaded by walking the light tree, as those without a list. 256 bytes more per 8x8
+    // pixel tile of the largest frame are for distant lights, which each take so much in a frame of
+    // that size. 0: default, 128 MiB, less if the sum exceeds the device's maxStorageBufferRange.
+    // With a larger budget there is less room for distant lights.
     VkDeviceSize shadowBudget;
 } CndLightingViewDesc;
 
@@ -251,10 +252,13 @@ typedef struct CndLightingFrame {
     // because the error depends on the sum.
     CndInfluence influence;
     // With VK_TRUE the host promises that size, camera, clearDepth, depth and normals are those of
-    // the previous frame recorded with this view, and with diffuseOnlyTiles also albedo and
-    // specular. The clusters and lists of that frame are then reused if the light set, occluders,
-    // layers, specularMethod, sampleCount, influence.rule and shadowsOff are also the same and both
-    // frames use CND_CULLING_CLUSTERED. With CND_INFLUENCE_BY_ERROR they are never reused.
+    // the previous frame recorded with this view, with CndLightingDesc::shadows also roughness, and
+    // with diffuseOnlyTiles also albedo and specular. The clusters and lists of that frame are then
+    // reused if the light set, occluders, layers, specularMethod, sampleCount, influence.rule and
+    // shadowsOff are also the same and both frames use CND_CULLING_CLUSTERED. So is what pixels see
+    // of lights, unless rays of the host find it, because what they hit may have moved, or there is
+    // no room for all distant lights in view (shadowBudget). No kernel then looks for shadows. With
+    // CND_INFLUENCE_BY_ERROR nothing is ever reused.
     VkBool32 surfacesUnchanged;
     // With CND_CULLING_BRUTE: the pixels to shade; zero extent: all pixels. No dispatch evaluates
     // more than 2^28 pairs of pixel and light (with more than four million lights: the pairs of 64
@@ -357,20 +361,19 @@ typedef struct CndLightingStats {
     uint64_t evaluatedPairs;
     uint64_t insidePairs;       // listed pairs with distance < influence radius
     uint64_t contributingPairs; // inside pairs whose emitter is not wholly below the horizon
-    // With countPairs and CndLightingDesc::shadows: pairs whose visibility was asked for, those of
-    // which the pixel sees a part of the light, and those of which it sees nothing. The same pixels
-    // count as above.
+    // With countPairs and CndLightingDesc::shadows: pairs whose visibility was asked for, in this
+    // frame or in the one whose answers it reuses, those of which the pixel sees a part of the
+    // light, and those of which it sees nothing. The same pixels count as above.
     uint64_t askedPairs, partlyLitPairs, darkPairs;
     // Each pair of a cluster and a light takes a slot, 256 bytes of
-    // CndLightingViewDesc::shadowBudget. shadowSlots: the most that one light type took.
-    // missingShadowSlots: how many more pairs, of all types, found none; their clusters count in
-    // unlistedClusters. A budget for the sum of both is enough, unless lists exceed listBudget.
-    // Brute force and distant lights do not count.
+    // CndLightingViewDesc::shadowBudget. shadowSlots: how many were taken. missingShadowSlots: how
+    // many more pairs found none; their clusters count in unlistedClusters. A budget for the sum of
+    // both is enough, unless lists exceed listBudget. Brute force and distant lights do not count.
     uint32_t shadowSlots, missingShadowSlots;
-    // How the slots of all light types were filled. litSlots: no occluder is between the cluster
-    // and the light. listedSlots: pixels test a list of the triangles that may be there.
-    // walkedSlots: these are too many for a list, or the light is too near, and pixels walk through
-    // the trees of the occluders.
+    // How this frame filled its slots; 0 if it reuses them (surfacesUnchanged). litSlots: no
+    // occluder is between the cluster and the light. listedSlots: pixels test a list of the
+    // triangles that may be there. walkedSlots: these are too many for a list, or the light is too
+    // near, and pixels walk through the trees of the occluders.
     uint32_t litSlots, listedSlots, walkedSlots;
     // On devices that limit loops: pairs whose search for occluders was cut off. They have fewer
     // shadows than they should.

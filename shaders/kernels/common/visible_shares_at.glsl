@@ -21,6 +21,7 @@ uint visibleSharesAt(uint k)
         return SHARES_LIT;
     uint slot = pageSlots[k / PAGE_WORDS] + k % PAGE_WORDS - 1u;
     if (IS_DISTANT)
-        slot = walkedTile * params.batch.count + k - params.batch.first;
+        slot = shadowView.distantSlots[lightType] + params.batch.first * shadowView.distantStride +
+               walkedTile * params.batch.count + k - params.batch.first;
     return slots[slot * SLOT_WORDS + gl_LocalInvocationIndex];
 }

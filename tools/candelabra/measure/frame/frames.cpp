@@ -182,11 +182,16 @@ std::string shadowText(const CndLightingStats& stats, PixelSize size)
     const uint64_t asked = stats.askedPairs;
     std::string out = fmt::format(
         "shadows: a pixel asks for {} lights, and sees {} wholly, {} in part and {} not at all; "
-        "{} used; of those of all types, {} are lit, {} have lists and {} walk",
+        "{} used",
         perPixel(asked), perPixel(asked - stats.partlyLitPairs - stats.darkPairs),
         perPixel(stats.partlyLitPairs), perPixel(stats.darkPairs),
-        counted(stats.shadowSlots, "slot"), grouped(stats.litSlots), grouped(stats.listedSlots),
-        grouped(stats.walkedSlots));
+        counted(stats.shadowSlots, "slot"));
+    const bool fills = stats.litSlots || stats.listedSlots || stats.walkedSlots;
+    if (fills)
+        out += fmt::format("; {} are lit, {} have lists and {} walk", grouped(stats.litSlots),
+                           grouped(stats.listedSlots), grouped(stats.walkedSlots));
+    else if (stats.shadowSlots)
+        out += ", all kept from the frame before, so that this one asked for none";
     if (stats.missingShadowSlots)
         out += fmt::format("; {} missing, whose pixels take longer", // a message says more
                            counted(stats.missingShadowSlots, "slot"));
