@@ -7,7 +7,7 @@
 
 #include "candelabra/candelabra.h"
 #include "gpu/device.h"
-#include "shared/lighting_data.h"
+#include "shared/cluster_data.h"
 
 namespace candelabra::lighting
 {
