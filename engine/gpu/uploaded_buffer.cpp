@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/uploaded_buffer.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 
@@ -103,6 +104,13 @@ void UploadedBuffer::markChanged(VkDeviceSize first, VkDeviceSize bytes) noexcep
 {
     for (size_t block = first / blockBytes; block < blocksOf(first + bytes); ++block)
         changedBlocks_ += !std::exchange(changed_[block], uint8_t(1));
+}
+
+bool UploadedBuffer::isChanged(VkDeviceSize first, VkDeviceSize bytes) const
+{
+    const auto begin = changed_.begin() + std::ptrdiff_t(first / blockBytes);
+    const auto end = changed_.begin() + std::ptrdiff_t(blocksOf(first + bytes));
+    return isChanged() && std::find(begin, end, uint8_t(1)) != end;
 }
 
 void UploadedBuffer::recordUpload(const Frame& frame, uint64_t recording,

@@ -27,6 +27,8 @@ public:
     void markChanged(VkDeviceSize first, VkDeviceSize bytes) noexcept;
 
     bool isChanged() const { return changedBlocks_ != 0; }
+    // Tells whether the next recording uploads some of a range.
+    bool isChanged(VkDeviceSize first, VkDeviceSize bytes) const;
     // Records the upload of what has changed since the last recording. `contents` are all bytes
     // that are in use. `recording`: number of this recording. The caller puts barriers before and
     // after.

@@ -162,6 +162,18 @@ CndResult cndReplaceOccluderPositions(CndLighting lighting, CndOccluderMeshId me
     });
 }
 
+CndResult cndReplaceOccluderPositionsOnDevice(CndLighting lighting, uint32_t count,
+                                              const CndDevicePositions* positions, CndError* error)
+{
+    return gpu::guard(error, [&] {
+        const char* const call = "cndReplaceOccluderPositionsOnDevice";
+        gpu::requireNotNull(call, {lighting});
+        if (count)
+            gpu::requireNotNull(call, {positions});
+        lighting->impl.occluders(call).replacePositionsOnDevice({positions, count});
+    });
+}
+
 CndResult cndRemoveOccluderMeshes(CndLighting lighting, uint32_t count,
                                   const CndOccluderMeshId* ids, CndError* error)
 {

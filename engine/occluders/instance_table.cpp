@@ -30,12 +30,13 @@ glm::dvec3 positionOf(const gpu::OccluderRecord& record)
 InstanceTable::InstanceTable(const gpu::Device& device, gpu::Recordings& recordings,
                              MeshTable& meshes, uint32_t capacity)
     : meshes_(meshes),
-      recordBuffer_(device, recordings, "occluder records", capacity * occluderRecordBytes)
+      recordBuffer_(device, recordings, "occluder records", capacity * occluderRecordBytes),
+      planBuffer_(device, recordings, "plan of occluders", 0)
 {
 }
 
 // Any edit may lead to a new tree, so that there must be room for the upload of everything.
-void InstanceTable::reserve(size_t removed, size_t added)
+void InstanceTable::reserve(size_t removed, size_t added, bool fitted)
 {
     const size_t most = added ? count() + added : placed_.size();
     ids_.reserve(removed, added);
@@ -52,6 +53,13 @@ void InstanceTable::reserve(size_t removed, size_t added)
         return;
     recordBuffer_.reserve(most * occluderRecordBytes, most * occluderRecordBytes, 1);
     meshes_.reserveInstanceNodes(uint32_t(2 * most));
+    if (fitted) {
+        const uint32_t words = maxRefitPlanWords(uint32_t(2 * most));
+        planWords_.resize(std::max<size_t>(planWords_.size(), words));
+        heights_.resize(std::max(heights_.size(), 2 * most));
+        planBuffer_.reserve(words * sizeof(uint32_t), words * sizeof(uint32_t), 1);
+    }
+    isFitted_ = fitted;
 }
 
 void InstanceTable::add(std::span<const OccluderInstance> instances, OccluderId* ids) noexcept
@@ -233,6 +241,7 @@ void InstanceTable::makeTree() noexcept
     surfaceAtFirst_ = surface_;
     recordBuffer_.markChanged(0, records_.size() * occluderRecordBytes);
     treeIsMade_ = true;
+    planIsMade_ = false;
 }
 
 // Chooses the median of the boxes' centres, so that coordinates relative to it are small wherever
@@ -278,11 +287,22 @@ void InstanceTable::findParents() noexcept
     }
 }
 
+void InstanceTable::makePlan() noexcept
+{
+    plan_ = writeRefitPlan(nodes(), heights_, planWords_);
+    planBuffer_.markChanged(0, plan_.words * sizeof(uint32_t));
+    planIsMade_ = true;
+}
+
 void InstanceTable::recordUpload(const gpu::Frame& frame, uint64_t recording) noexcept
 {
     if (!treeIsMade_)
         makeTree();
+    if (isFitted_ && !planIsMade_)
+        makePlan();
     recordBuffer_.recordUpload(frame, recording, std::as_bytes(std::span(records_)));
+    planBuffer_.recordUpload(frame, recording,
+                             std::as_bytes(std::span(planWords_).first(plan_.words)));
 }
 
 } // namespace candelabra::lighting

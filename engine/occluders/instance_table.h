@@ -29,8 +29,9 @@ public:
     {
         ids_.check(call, "occluder", ids);
     }
-    // Does everything in an edit that can fail.
-    void reserve(size_t removed, size_t added);
+    // Does everything in an edit that can fail. `fitted`: from the next recording on the device
+    // fits the tree (refit_occluders).
+    void reserve(size_t removed, size_t added, bool fitted);
     void add(std::span<const OccluderInstance> instances, OccluderId* ids) noexcept;
     void update(std::span<const OccluderId> ids,
                 std::span<const OccluderInstance> instances) noexcept;
@@ -44,7 +45,10 @@ public:
     // The layers of all instances, and perhaps of some that have been replaced or removed.
     uint32_t layers() const { return count() ? layers_ : 0; }
 
-    bool isChanged() const { return !treeIsMade_ || recordBuffer_.isChanged(); }
+    bool isChanged() const
+    {
+        return !treeIsMade_ || recordBuffer_.isChanged() || (isFitted_ && !planIsMade_);
+    }
     // Makes the tree anew if it needs that, and records the upload of what has changed but for the
     // nodes, which MeshTable keeps and uploads.
     void recordUpload(const gpu::Frame& frame, uint64_t recording) noexcept;
@@ -58,6 +62,9 @@ public:
     }
     std::span<const gpu::OccluderRecord> records() const { return records_; }
     const gpu::Buffer& recordBuffer() const { return recordBuffer_.buffer(); }
+    // The plan of the tree, if the device fits it.
+    const RefitPlan& plan() const { return plan_; }
+    const gpu::Buffer& planBuffer() const { return planBuffer_.buffer(); }
 
 private:
     struct Placed {
@@ -76,6 +83,7 @@ private:
     void chooseOrigin() noexcept;
     void sortByTree() noexcept;
     void findParents() noexcept;
+    void makePlan() noexcept;
 
     MeshTable& meshes_;
     gpu::IdTable ids_;
@@ -90,13 +98,19 @@ private:
     std::vector<uint32_t> leaves_;            // by place
     double surface_ = 0, surfaceAtFirst_ = 0; // of all nodes, now and when the tree was made
 
+    bool isFitted_ = false;   // by the device
+    bool planIsMade_ = false; // for the present tree
+    RefitPlan plan_;
+    std::vector<uint32_t> planWords_;
+    std::vector<uint8_t> heights_;
+
     // Memory for makeTree().
     std::vector<TreeItem> items_;
     std::vector<Placed> sortedPlaced_;
     std::vector<gpu::OccluderRecord> sortedRecords_;
     std::vector<double> coordinates_;
 
-    gpu::UploadedBuffer recordBuffer_;
+    gpu::UploadedBuffer recordBuffer_, planBuffer_;
 };
 
 } // namespace candelabra::lighting

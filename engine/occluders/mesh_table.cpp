@@ -6,14 +6,16 @@
 #include <cstring>
 #include <string>
 
+#include "shared/refit_occluders.h"
+
 namespace candelabra::lighting
 {
 namespace
 {
 
 constexpr const char* addCall = "cndAddOccluderMeshes";
+constexpr const char* deviceCall = "cndReplaceOccluderPositionsOnDevice";
 constexpr uint32_t positionBytes = 3 * sizeof(float);
-constexpr float maxPosition = 1e15f;
 constexpr uint32_t maxTriangles = 1u << 28; // of a mesh: leaves hold the first one's index
 
 // The positions of a mesh in the host's memory.
@@ -40,7 +42,7 @@ public:
         for (uint32_t i = 0; i < count_; ++i) {
             const float* const p = first_ + size_t(i) * stride_;
             for (int axis = 0; axis < 3; ++axis)
-                if (!(std::abs(p[axis]) <= maxPosition)) // also for NaN
+                if (!(std::abs(p[axis]) <= gpu::MAX_OCCLUDER_COORDINATE)) // also for NaN
                     gpu::failArgument(name + "[" + std::to_string(i) + "][" + std::to_string(axis) +
                                       "] is " + std::to_string(p[axis]) +
                                       ", must be finite and within 1e15");
@@ -134,6 +136,8 @@ MeshTable::Built MeshTable::build(const OccluderMesh& mesh)
     out.mesh.triangleCount = mesh.triangleCount;
     out.mesh.vertexCount = mesh.vertexCount;
     out.mesh.users = 0;
+    out.mesh.onDevice = {};
+    out.mesh.toRefit = false;
     return out;
 }
 
@@ -169,7 +173,8 @@ MeshTable::MeshTable(const gpu::Device& device, gpu::Recordings& recordings, uin
       triangles_{.buffer = {device, recordings, "occluder triangles",
                             capacity * VkDeviceSize(sizeof(gpu::OccluderTriangle)), true}},
       neighbours_{.buffer = {device, recordings, "occluder neighbours",
-                             capacity * VkDeviceSize(sizeof(gpu::OccluderNeighbours))}}
+                             capacity * VkDeviceSize(sizeof(gpu::OccluderNeighbours))}},
+      plans_{.buffer = {device, recordings, "occluder plans", 0}}
 {
 }
 
@@ -266,12 +271,13 @@ void MeshTable::replacePositions(OccluderMeshId id, const float* positions, uint
     const char* const call = "cndReplaceOccluderPositions";
     check(call, {&id, 1});
     checkStride(std::string(call) + ": ", stride);
-    const Mesh& mesh = (*this)[id];
+    Mesh& mesh = (*this)[id];
     const Positions from(positions, stride, mesh.vertexCount);
     from.check(std::string(call) + ": positions");
     nodes_.reserve(nodeRanges_.end(), VkDeviceSize(mesh.nodeCount) + instanceNodes_.used, 2);
     triangles_.reserve(triangleRanges_.end(), mesh.triangleCount, 1);
     neighbours_.reserve(triangleRanges_.end(), mesh.triangleCount, 1);
+    leaveDevice(id); // nothing after this can fail
     const std::span triangles =
         std::span(triangles_.contents).subspan(mesh.firstTriangle, mesh.triangleCount);
     for (uint32_t i = 0; i < mesh.triangleCount; ++i)
@@ -286,6 +292,113 @@ void MeshTable::replacePositions(OccluderMeshId id, const float* positions, uint
     neighbours_.changed(mesh.firstTriangle, mesh.triangleCount);
 }
 
+void MeshTable::check(std::span<const DevicePositions> positions)
+{
+    std::vector<OccluderMeshId> ids;
+    for (const DevicePositions& p : positions)
+        ids.push_back(p.mesh);
+    check(deviceCall, ids);
+    const uint64_t room = device_.limits.maxStorageBufferRange;
+    for (size_t i = 0; i < positions.size(); ++i) {
+        const DevicePositions& p = positions[i];
+        const std::string name =
+            std::string(deviceCall) + ": positions " + std::to_string(i) + ": ";
+        if (!p.buffer)
+            gpu::failArgument(name + "buffer is null");
+        if (p.offset % sizeof(uint32_t))
+            gpu::failArgument(name + "offset is " + std::to_string(p.offset) +
+                              ", must be a multiple of 4");
+        checkStride(name, p.stride);
+        const uint64_t stride = p.stride ? p.stride : positionBytes;
+        const uint64_t bytes = ((*this)[p.mesh].vertexCount - 1) * stride + positionBytes;
+        // The range of a descriptor may have to begin before the first position.
+        if (bytes + device_.limits.minStorageBufferOffsetAlignment > room)
+            gpu::failUnsupported(name + "they take " + std::to_string(bytes) +
+                                 " bytes, too many for the device's maxStorageBufferRange, " +
+                                 std::to_string(room));
+    }
+}
+
+// The plan of a mesh whose positions are not on the device yet, before it has a range.
+struct MeshTable::Planned {
+    OccluderMeshId id;
+    std::vector<uint32_t> words; // with the corners
+    RefitPlan plan;
+    uint32_t first = 0;
+};
+
+MeshTable::Planned MeshTable::planFor(const DevicePositions& positions) const
+{
+    const Mesh& mesh = (*this)[positions.mesh];
+    Planned out{.id = positions.mesh};
+    out.words.resize(maxRefitPlanWords(mesh.nodeCount));
+    std::vector<uint8_t> heights(mesh.nodeCount);
+    out.plan = writeRefitPlan(nodesOf(mesh), heights, out.words);
+    out.words.resize(out.plan.words);
+    for (const glm::uvec3& corners : mesh.corners)
+        out.words.insert(out.words.end(), {corners.x, corners.y, corners.z});
+    return out;
+}
+
+// Does everything for these plans that can fail, after their ranges have been taken.
+void MeshTable::reservePlans(std::span<const Planned> planned)
+{
+    requireRange(deviceCall, device_, planRanges_.end(), sizeof(uint32_t));
+    VkDeviceSize words = 0, triangles = 0;
+    for (const Planned& p : planned) {
+        words += p.words.size();
+        triangles += (*this)[p.id].triangleCount;
+    }
+    plans_.reserve(planRanges_.end(), words, planned.size());
+    neighbours_.reserve(triangleRanges_.end(), triangles, planned.size());
+}
+
+void MeshTable::replacePositionsOnDevice(std::span<const DevicePositions> positions)
+{
+    std::vector<Planned> planned;
+    for (const DevicePositions& p : positions)
+        if (!(*this)[p.mesh].onDevice.buffer)
+            planned.push_back(planFor(p));
+    gpu::reserveMore(onDevice_, planned.size());
+    planRanges_.reserve(planned.size());
+    for (Planned& p : planned)
+        p.first = planRanges_.take(uint32_t(p.words.size()));
+    try {
+        reservePlans(planned);
+    } catch (...) {
+        for (const Planned& p : planned)
+            planRanges_.give(p.first, uint32_t(p.words.size()));
+        throw;
+    }
+    for (const Planned& p : planned) { // nothing after this can fail
+        Mesh& mesh = (*this)[p.id];
+        mesh.firstPlan = p.first;
+        mesh.plan = p.plan;
+        plans_.write(p.first, p.words);
+        onDevice_.push_back(p.id);
+        copyNeighboursOfVertices(
+            mesh.corners, mesh.neighbours,
+            std::span(neighbours_.contents).subspan(mesh.firstTriangle, mesh.triangleCount));
+        neighbours_.changed(mesh.firstTriangle, mesh.triangleCount);
+    }
+    for (const DevicePositions& p : positions) {
+        (*this)[p.mesh].onDevice = p;
+        (*this)[p.mesh].toRefit = true;
+    }
+}
+
+// Forgets the mesh's positions on the device, if it has any.
+void MeshTable::leaveDevice(OccluderMeshId id) noexcept
+{
+    Mesh& mesh = (*this)[id];
+    if (!mesh.onDevice.buffer)
+        return;
+    planRanges_.give(mesh.firstPlan, mesh.planWords());
+    std::erase(onDevice_, id);
+    mesh.onDevice = {};
+    mesh.toRefit = false;
+}
+
 void MeshTable::remove(std::span<const OccluderMeshId> ids)
 {
     check("cndRemoveOccluderMeshes", ids);
@@ -295,14 +408,28 @@ void MeshTable::remove(std::span<const OccluderMeshId> ids)
                               "] is a mesh that " + std::to_string(users) + " occluders use");
     ids_.reserve(ids.size(), 0);
     for (const OccluderMeshId id : ids) {
+        leaveDevice(id);
         giveBack((*this)[id]);
         (*this)[id] = {};
         ids_.remove(gpu::IdTable::slotOf(id));
     }
 }
 
+bool MeshTable::isChanged() const
+{
+    return nodes_.buffer.isChanged() || triangles_.buffer.isChanged() ||
+           std::ranges::any_of(onDevice_, [&](OccluderMeshId id) { return (*this)[id].toRefit; });
+}
+
 void MeshTable::recordUpload(const gpu::Frame& frame, uint64_t recording) noexcept
 {
+    // An upload of blocks in which a mesh has a part brings back what the host knows of it.
+    for (const OccluderMeshId id : onDevice_) {
+        Mesh& mesh = (*this)[id];
+        mesh.toRefit = mesh.toRefit || nodes_.isChanged(mesh.firstNode, mesh.nodeCount) ||
+                       triangles_.isChanged(mesh.firstTriangle, mesh.triangleCount);
+    }
+    plans_.buffer.recordUpload(frame, recording, std::as_bytes(std::span(plans_.contents)));
     nodes_.buffer.recordUpload(frame, recording, std::as_bytes(std::span(nodes_.contents)));
     triangles_.buffer.recordUpload(frame, recording, std::as_bytes(std::span(triangles_.contents)));
     neighbours_.buffer.recordUpload(frame, recording,

@@ -12,6 +12,7 @@
 #include "occluders/neighbours.h"
 #include "occluders/occluder_input.h"
 #include "occluders/occluder_tree.h"
+#include "occluders/refit_plan.h"
 
 namespace candelabra::lighting
 {
@@ -27,6 +28,14 @@ public:
         // The vertices of each triangle, in the order of the tree: positions may be replaced.
         std::vector<glm::uvec3> corners;
         Neighbours neighbours; // of the triangles when the mesh was added
+        // Positions on the device; without a buffer those of the host are in use.
+        DevicePositions onDevice;
+        // The range of plans() that then holds the plan of its tree, and after it its corners.
+        uint32_t firstPlan;
+        RefitPlan plan;
+        bool toRefit; // the boxes on the device have to be fitted
+
+        uint32_t planWords() const { return plan.words + 3 * triangleCount; }
     };
 
     // `capacity`: triangles for which to make room. `instanceNodeCapacity`: the same for the nodes
@@ -40,6 +49,10 @@ public:
     // `positions`: as OccluderMesh::positions, as many as the mesh has. Also prepares the upload of
     // the tree over instances.
     void replacePositions(OccluderMeshId id, const float* positions, uint32_t stride);
+    // Throws gpu::Failure if one of these is out of range.
+    void check(std::span<const DevicePositions> positions);
+    // `positions`: checked.
+    void replacePositionsOnDevice(std::span<const DevicePositions> positions);
     void remove(std::span<const OccluderMeshId> ids);
 
     // Makes room for so many nodes of the tree over instances, and for their upload. If it has to
@@ -71,11 +84,16 @@ public:
     std::span<const gpu::OccluderTriangle> allTriangles() const { return triangles_.contents; }
     std::span<const gpu::OccluderNeighbours> allNeighbours() const { return neighbours_.contents; }
 
-    bool isChanged() const { return nodes_.buffer.isChanged() || triangles_.buffer.isChanged(); }
+    // The meshes with positions on the device.
+    std::span<const OccluderMeshId> onDevice() const { return onDevice_; }
+
+    bool isChanged() const;
+    // Afterwards the trees of meshes whose toRefit is set have to be fitted.
     void recordUpload(const gpu::Frame& frame, uint64_t recording) noexcept;
     const gpu::Buffer& nodes() const { return nodes_.buffer.buffer(); }
     const gpu::Buffer& triangles() const { return triangles_.buffer.buffer(); }
     const gpu::Buffer& neighbours() const { return neighbours_.buffer.buffer(); }
+    const gpu::Buffer& plans() const { return plans_.buffer.buffer(); } // words
 
 private:
     // An array in which each mesh has a range.
@@ -88,13 +106,21 @@ private:
         void reserve(size_t end, VkDeviceSize changed, size_t count);
         void write(uint32_t first, std::span<const T> elements) noexcept;
         void changed(uint32_t first, size_t count) noexcept;
+        bool isChanged(uint32_t first, size_t count) const
+        {
+            return buffer.isChanged(first * sizeof(T), count * sizeof(T));
+        }
     };
     struct Built;
+    struct Planned;
     void check(const char* call, std::span<const OccluderMeshId> ids)
     {
         ids_.check(call, "occluder mesh", ids);
     }
     static Built build(const OccluderMesh& mesh);
+    Planned planFor(const DevicePositions& positions) const;
+    void reservePlans(std::span<const Planned> planned);
+    void leaveDevice(OccluderMeshId id) noexcept;
     void makeRoom(std::span<const Built> built);
     void giveBack(const Mesh& mesh) noexcept;
 
@@ -106,10 +132,12 @@ private:
     } instanceNodes_;
     gpu::IdTable ids_;
     std::vector<Mesh> meshes_; // indexed by slot
-    FreeRanges nodeRanges_, triangleRanges_;
+    std::vector<OccluderMeshId> onDevice_;
+    FreeRanges nodeRanges_, triangleRanges_, planRanges_;
     Pool<gpu::OccluderNode> nodes_;
     Pool<gpu::OccluderTriangle> triangles_;
     Pool<gpu::OccluderNeighbours> neighbours_; // as triangles_
+    Pool<uint32_t> plans_;
 };
 
 } // namespace candelabra::lighting

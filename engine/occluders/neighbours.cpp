@@ -41,6 +41,31 @@ std::vector<uint32_t> vertexIndices(std::span<const gpu::OccluderTriangle> trian
     return out;
 }
 
+// Copies the neighbours at whose edge the ends are the same in both triangles. `end` returns what
+// stands for a corner of a triangle.
+template <typename End>
+void copyNeighbours(std::span<const gpu::OccluderNeighbours> neighbours,
+                    std::span<gpu::OccluderNeighbours> out, End&& end) noexcept
+{
+    const auto meets = [&](uint32_t triangle, uint32_t edge) {
+        const uint32_t word = neighbours[triangle].edges[edge], other = word >> 1;
+        if (word == gpu::NO_NEIGHBOUR)
+            return false;
+        for (uint32_t i = 0; i < 3; ++i) {
+            if (neighbours[other].edges[i] != (triangle << 1 | (word & 1)))
+                continue;
+            const uint32_t from = word & 1 ? i : nextCorner(i), to = word & 1 ? nextCorner(i) : i;
+            if (end(triangle, edge) == end(other, from) &&
+                end(triangle, nextCorner(edge)) == end(other, to))
+                return true;
+        }
+        return false;
+    };
+    for (uint32_t t = 0; t < neighbours.size(); ++t)
+        for (uint32_t edge = 0; edge < 3; ++edge)
+            out[t].edges[edge] = meets(t, edge) ? neighbours[t].edges[edge] : gpu::NO_NEIGHBOUR;
+}
+
 } // namespace
 
 Neighbours findNeighbours(std::span<const gpu::OccluderTriangle> triangles)
@@ -79,23 +104,18 @@ void copyNeighboursThatMeet(std::span<const gpu::OccluderTriangle> triangles,
                             std::span<const gpu::OccluderNeighbours> neighbours,
                             std::span<gpu::OccluderNeighbours> out) noexcept
 {
-    const auto meets = [&](uint32_t triangle, uint32_t edge) {
-        const uint32_t word = neighbours[triangle].edges[edge], other = word >> 1;
-        if (word == gpu::NO_NEIGHBOUR)
-            return false;
-        const glm::vec3(&a)[3] = triangles[triangle].corners, (&b)[3] = triangles[other].corners;
-        for (uint32_t i = 0; i < 3; ++i) {
-            if (neighbours[other].edges[i] != (triangle << 1 | (word & 1)))
-                continue;
-            const uint32_t from = word & 1 ? i : nextCorner(i), to = word & 1 ? nextCorner(i) : i;
-            if (a[edge] == b[from] && a[nextCorner(edge)] == b[to])
-                return true;
-        }
-        return false;
-    };
-    for (uint32_t t = 0; t < triangles.size(); ++t)
-        for (uint32_t edge = 0; edge < 3; ++edge)
-            out[t].edges[edge] = meets(t, edge) ? neighbours[t].edges[edge] : gpu::NO_NEIGHBOUR;
+    copyNeighbours(neighbours, out, [&](uint32_t triangle, uint32_t corner) {
+        return triangles[triangle].corners[corner];
+    });
+}
+
+void copyNeighboursOfVertices(std::span<const glm::uvec3> corners,
+                              std::span<const gpu::OccluderNeighbours> neighbours,
+                              std::span<gpu::OccluderNeighbours> out) noexcept
+{
+    copyNeighbours(neighbours, out, [&](uint32_t triangle, uint32_t corner) {
+        return corners[triangle][int(corner)];
+    });
 }
 
 } // namespace candelabra::lighting

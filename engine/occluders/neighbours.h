@@ -22,4 +22,10 @@ void copyNeighboursThatMeet(std::span<const gpu::OccluderTriangle> triangles,
                             std::span<const gpu::OccluderNeighbours> neighbours,
                             std::span<gpu::OccluderNeighbours> out) noexcept;
 
+// Copies those of `neighbours` that share an edge whatever the positions are: its ends are the same
+// vertices in both triangles. `corners`: the vertices of each triangle.
+void copyNeighboursOfVertices(std::span<const glm::uvec3> corners,
+                              std::span<const gpu::OccluderNeighbours> neighbours,
+                              std::span<gpu::OccluderNeighbours> out) noexcept;
+
 } // namespace candelabra::lighting

@@ -10,6 +10,7 @@ namespace candelabra::lighting
 using OccluderMeshId = CndOccluderMeshId;
 using OccluderId = CndOccluderId;
 using OccluderMesh = CndOccluderMesh;
+using DevicePositions = CndDevicePositions;
 using OccluderInstance = CndOccluderInstance;
 inline constexpr uint32_t occluderLayerCount = CND_OCCLUDER_LAYER_COUNT;
 

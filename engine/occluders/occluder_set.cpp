@@ -110,15 +110,32 @@ void OccluderSet::addMeshes(std::span<const OccluderMesh> meshes, OccluderMeshId
     if (meshes.empty())
         return;
     recordings_.freeRetired();
+    prepareRefit();
     meshes_.add(meshes, ids);
 }
 
 void OccluderSet::replacePositions(OccluderMeshId id, const float* positions, uint32_t stride)
 {
     recordings_.freeRetired();
-    instances_.reserve(0, 0); // the boxes of its instances change
+    prepareRefit();
+    instances_.reserve(0, 0, refits()); // the boxes of its instances change
     meshes_.replacePositions(id, positions, stride);
     instances_.fit(id);
+    ++number_;
+}
+
+void OccluderSet::replacePositionsOnDevice(std::span<const DevicePositions> positions)
+{
+    if (positions.empty())
+        return;
+    meshes_.check(positions);
+    recordings_.freeRetired();
+    if (!refit_)
+        refit_.emplace(device_, recordings_);
+    prepareRefit(size_t(std::ranges::count_if(
+        positions, [&](const DevicePositions& p) { return !meshes_[p.mesh].onDevice.buffer; })));
+    instances_.reserve(0, 0, true);
+    meshes_.replacePositionsOnDevice(positions);
     ++number_;
 }
 
@@ -151,7 +168,15 @@ void OccluderSet::reserve(size_t removed, size_t added)
     recordings_.freeRetired();
     if (added && prepare_)
         prepare_(uint32_t(places));
-    instances_.reserve(removed, added);
+    prepareRefit();
+    instances_.reserve(removed, added, refits());
+}
+
+// Every edit may need it: the next recording uploads what the host knows of boxes.
+void OccluderSet::prepareRefit(size_t moreMeshes)
+{
+    if (refit_)
+        refit_->prepare(meshes_.onDevice().size() + moreMeshes);
 }
 
 void OccluderSet::add(std::span<const OccluderInstance> instances, OccluderId* ids)
@@ -188,8 +213,15 @@ void OccluderSet::remove(std::span<const OccluderId> ids)
 
 void OccluderSet::recordUpload(const gpu::Frame& frame, uint64_t recording) noexcept
 {
+    refitIsDue_ = refit_ && isChanged();
     instances_.recordUpload(frame, recording);
     meshes_.recordUpload(frame, recording);
+}
+
+void OccluderSet::recordRefit(const gpu::Frame& frame, uint64_t recording) noexcept
+{
+    if (std::exchange(refitIsDue_, false))
+        refit_->record(frame, recording, meshes_, instances_);
 }
 
 } // namespace candelabra::lighting

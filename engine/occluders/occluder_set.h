@@ -4,10 +4,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 
 #include "occluders/instance_table.h"
 #include "occluders/mesh_table.h"
+#include "occluders/occluder_refit.h"
 
 namespace candelabra::lighting
 {
@@ -29,10 +31,11 @@ public:
     OccluderSet(const OccluderSet&) = delete; // its members point to one another
     OccluderSet& operator=(const OccluderSet&) = delete;
 
-    // The six calls that hosts make. Each does all that it is asked for, or throws gpu::Failure and
-    // leaves the set as it was. The spans of one call have the same size.
+    // The seven calls that hosts make. Each does all that it is asked for, or throws gpu::Failure
+    // and leaves the set as it was. The spans of one call have the same size.
     void addMeshes(std::span<const OccluderMesh> meshes, OccluderMeshId* ids);
     void replacePositions(OccluderMeshId id, const float* positions, uint32_t stride);
+    void replacePositionsOnDevice(std::span<const DevicePositions> positions);
     void removeMeshes(std::span<const OccluderMeshId> ids);
     void add(std::span<const OccluderInstance> instances, OccluderId* ids);
     void update(std::span<const OccluderId> ids, std::span<const OccluderInstance> instances);
@@ -48,16 +51,24 @@ public:
     // Records the upload of what has changed since the last recording. The caller puts barriers
     // before and after. `recording`: number of this recording.
     void recordUpload(const gpu::Frame& frame, uint64_t recording) noexcept;
+    // Tells whether a mesh has, or has had, positions on the device.
+    bool refits() const { return refit_.has_value(); }
+    // Fits the trees to what is on the device, if it may have changed: after recordUpload() of the
+    // same recording, with barriers before and after.
+    void recordRefit(const gpu::Frame& frame, uint64_t recording) noexcept;
 
 private:
     void check(const char* call, std::span<const OccluderInstance> instances) const;
     void reserve(size_t removed, size_t added);
+    void prepareRefit(size_t moreMeshes = 0);
 
     const gpu::Device& device_;
     gpu::Recordings& recordings_;
     Prepare prepare_;
     MeshTable meshes_;
     InstanceTable instances_;
+    std::optional<OccluderRefit> refit_; // from the first positions on the device on
+    bool refitIsDue_ = false;
     uint64_t number_ = 0;
 };
 

@@ -12,7 +12,7 @@ namespace
 
 constexpr int bins = 16;
 // Below this depth nodes are halved. Bins alone could make a tree as deep as it has items.
-constexpr uint32_t halvedFrom = 48, deepest = 80;
+constexpr uint32_t halvedFrom = 48;
 // A node with few items becomes a leaf unless two children are cheaper. The test of a box costs
 // half as much as the test of a triangle (65 and 120 instructions), and the children are two boxes.
 constexpr double boxCost = 0.5;
@@ -136,7 +136,7 @@ uint32_t buildTree(std::span<TreeItem> items, uint32_t leafItems,
         size_t first, count;
         uint32_t depth;
     };
-    std::array<Range, deepest + 1> waiting; // one second child per level, and the node itself
+    std::array<Range, deepestTree + 1> waiting; // one second child per level, and the node itself
     size_t waits = 0;
     uint32_t count = 0;
     if (!items.empty())

@@ -39,10 +39,12 @@ struct TreeItem {
     uint32_t index; // of the triangle or the instance; buildTree() only moves it
 };
 
+constexpr uint32_t deepestTree = 80; // levels below the root
+
 // Sorts `items` so that each leaf has consecutive ones, at most `leafItems`, and writes the nodes
 // of their tree. Returns how many these are, at most 2 * items.size() - 1. The tree is binary and
-// follows the surface area heuristic with 16 bins along each axis. It is at most 80 levels deep
-// whatever the items are.
+// follows the surface area heuristic with 16 bins along each axis. It is at most deepestTree levels
+// deep whatever the items are.
 uint32_t buildTree(std::span<TreeItem> items, uint32_t leafItems,
                    std::span<gpu::OccluderNode> nodes);
 

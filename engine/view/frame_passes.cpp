@@ -13,15 +13,15 @@ namespace
 
 // The name of each Pass, which is that of its kernel.
 constexpr std::array<const char*, passCount> names = {
-    "device_lights",  "light_order",    "dfg_table",         "prepare_lights", "prepare_occluders",
-    "polygon_facets", "project_depth",  "measure_influence", "cut_lights",     "tile_clusters",
-    "split_tiles",    "block_clusters", "light_tree",        "cluster_lists",  "prove_dark",
-    "ask_pairs",      "list_occluders", "pair_visibility",   "shade_tiles",    "shade_unlisted",
-    "shade_brute",    "count_pairs",    "count_shadows"};
+    "device_lights",     "light_order",    "refit_occluders", "dfg_table",         "prepare_lights",
+    "prepare_occluders", "polygon_facets", "project_depth",   "measure_influence", "cut_lights",
+    "tile_clusters",     "split_tiles",    "block_clusters",  "light_tree",        "cluster_lists",
+    "prove_dark",        "ask_pairs",      "list_occluders",  "pair_visibility",   "shade_tiles",
+    "shade_unlisted",    "shade_brute",    "count_pairs",     "count_shadows"};
 
-constexpr Pass ofShadows[] = {Pass::PrepareOccluders, Pass::PolygonFacets, Pass::ProveDark,
-                              Pass::AskPairs,         Pass::ListOccluders, Pass::PairVisibility,
-                              Pass::CountShadows};
+constexpr Pass ofShadows[] = {Pass::RefitOccluders, Pass::PrepareOccluders, Pass::PolygonFacets,
+                              Pass::ProveDark,      Pass::AskPairs,         Pass::ListOccluders,
+                              Pass::PairVisibility, Pass::CountShadows};
 
 // Why a frame does not find shadows that the previous one has found.
 constexpr const char* unmoved = "surfaces, lights and occluders unchanged";
@@ -34,9 +34,15 @@ constexpr Pass clustering[] = {Pass::TileClusters, Pass::SplitTiles, Pass::Block
 FramePasses::FramePasses(const FrameContent& c)
     : findsShadows_(c.findsShadows), listsAlone_(!c.distantInView)
 {
+    // Occluders are uploaded and fitted by the first recording, even if it has no lights.
+    if (!c.refitsOccluders)
+        skip(Pass::RefitOccluders, "no positions of the device's");
+    if (!c.occludersChanged)
+        skip(Pass::RefitOccluders, "occluders unchanged");
     if (!c.lights)
         for (size_t pass = 0; pass < passCount; ++pass)
-            skip(Pass(pass), "no lights");
+            if (Pass(pass) != Pass::RefitOccluders)
+                skip(Pass(pass), "no lights");
     if (!c.deviceLights)
         skip(Pass::DeviceLights, "no lights of the device's");
     if (!c.deviceLightsChanged)
@@ -45,7 +51,7 @@ FramePasses::FramePasses(const FrameContent& c)
         skip(Pass::LightOrder, "lights unchanged");
     // The lights are uploaded and sorted by the first recording, even if none reaches its view.
     if (!c.placedInView && !c.distantInView)
-        for (size_t pass = size_t(Pass::LightOrder) + 1; pass < passCount; ++pass)
+        for (size_t pass = size_t(Pass::RefitOccluders) + 1; pass < passCount; ++pass)
             skip(Pass(pass),
                  c.inLayers ? "no light reaches the view" : "no light of the view's layers");
     if (!c.readsAlbedoTable)
@@ -87,7 +93,9 @@ FramePasses::FramePasses(const FrameContent& c)
 void FramePasses::skipShadows(const FrameContent& c)
 {
     for (const Pass pass : ofShadows)
-        if (c.shadowsOff)
+        if (pass == Pass::RefitOccluders)
+            continue;
+        else if (c.shadowsOff)
             skip(pass, "shadowsOff");
         else if (!c.occludersInLayers &&
                  (pass == Pass::PrepareOccluders || pass == Pass::ProveDark || !c.hostFindsPoints))

@@ -13,6 +13,7 @@ namespace candelabra::lighting
 enum class Pass : uint8_t {
     DeviceLights,
     LightOrder,
+    RefitOccluders,
     DfgTable,
     PrepareLights,
     PrepareOccluders,
@@ -55,8 +56,10 @@ struct FrameContent {
     bool readsAlbedoTable = false, albedoTableFilled = false;
     bool cutByError = false; // the frame follows CND_INFLUENCE_BY_ERROR (influenceOf)
     bool countPairs = false;
-    bool forward = false;      // shaders of the host walk the light tree
-    bool findsShadows = false; // CndLightingDesc::shadows
+    bool forward = false;          // shaders of the host walk the light tree
+    bool findsShadows = false;     // CndLightingDesc::shadows
+    bool occludersChanged = false; // some changes are not uploaded yet
+    bool refitsOccluders = false;  // some of their positions come from the device
     bool occludersInLayers = false, shadowsOff = false;
     bool hostFindsPoints = false; // CND_HOST_VISIBLE_POINTS_BIT
     bool polygons = false;        // some lights are polygons

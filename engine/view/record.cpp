@@ -69,6 +69,8 @@ void View::record(VkCommandBuffer cmd, const CndLightingFrame& asked)
     if (shadows_)
         shadows_->recordBegin(f, plan, counters_, kept);
     f.barrier();
+    if (passes.runs(Pass::RefitOccluders))
+        module_.occluders->recordRefit(f, recording);
     module_.lights.recordDeviceCounts(f, counters_);
     if (passes.runs(Pass::ShadeTiles) || passes.runs(Pass::ShadeBrute))
         recordPasses(f, plan, passes);
@@ -118,6 +120,8 @@ FrameContent View::contentOf(const FramePlan& p, const KeptWork& kept) const
                      .countPairs = frame.countPairs == VK_TRUE,
                      .forward = forward_.wanted(),
                      .findsShadows = module_.occluders != nullptr,
+                     .occludersChanged = module_.occluders && module_.occluders->isChanged(),
+                     .refitsOccluders = module_.occluders && module_.occluders->refits(),
                      .occludersInLayers = p.occluders || frame.shadowsOff,
                      .shadowsOff = frame.shadowsOff == VK_TRUE,
                      .hostFindsPoints = module_.hostKernels.findsPoints(),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Soft shadows of a host's own meshes: 20 boxes move over a floor under 200 lights. The box that
-// the host draws from its vertex and index buffer is also the mesh that casts shadows. Writes
+// Soft shadows of a host's own meshes: 20 boxes move over a floor under 200 lights, and a stalk
+// bends. The box and the stalk that the host draws from its vertex and index buffers are also the
+// meshes that cast shadows. The vertices of the stalk are only on the device. Writes
 // embed_shadows.ppm (or the file named as argument), compares it with a frame without shadows, and
 // exits with 1 if a shadow is missing or brightens something.
 #include <algorithm>
@@ -17,18 +18,12 @@
 #include "box_vert.h"
 #include "host.hpp"
 #include "picture.h"
+#include "stalk.h"
 
 constexpr int boxCount = 20, lightCount = 200;
 constexpr float golden = 2.39996f; // an angle: so many places around a centre are evenly spread
 
-// What the host has in any case: a mesh, objects that use it, a camera.
-struct Vertex {
-    glm::vec3 position, normal;
-};
-struct Mesh {
-    std::vector<Vertex> vertices;
-    std::vector<uint32_t> indices;
-};
+// What the host has in any case: meshes, objects that use them, a camera.
 struct Object {
     glm::mat4 worldFromMesh;
     glm::vec3 albedo;
@@ -57,7 +52,7 @@ static Mesh boxMesh()
     return mesh;
 }
 
-// The floor, then the boxes, which circle and turn.
+// The floor, then the boxes, which circle and turn, and the stalk, whose vertices move instead.
 static std::vector<Object> objectsAt(float time)
 {
     const glm::mat4 one(1);
@@ -71,6 +66,7 @@ static std::vector<Object> objectsAt(float time)
             glm::rotate(glm::translate(one, centre), time + float(i), {0, 1, 0});
         out.push_back({glm::scale(turned, half), {0.7f, 0.3f + 0.1f * float(i % 5), 0.3f}});
     }
+    out.push_back({glm::translate(one, {0.2f, 0, 2.8f}), {0.3f, 0.6f, 0.2f}});
     return out;
 }
 
@@ -120,10 +116,49 @@ constexpr ImageUse storage{VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMPUTE_
                            VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
                                VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
 
+// A mesh on the device.
+class DrawnMesh
+{
+public:
+    DrawnMesh(const Host& host, const Mesh& mesh)
+        : host_(host),
+          vertices_(createHostBuffer(&host, mesh.vertices.size() * sizeof(Vertex),
+                                     VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
+                                         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT)),
+          indices_(createHostBuffer(&host, mesh.indices.size() * sizeof(uint32_t),
+                                    VK_BUFFER_USAGE_INDEX_BUFFER_BIT)),
+          indexCount_(uint32_t(mesh.indices.size()))
+    {
+        std::ranges::copy(mesh.vertices, static_cast<Vertex*>(vertices_.mapped));
+        std::ranges::copy(mesh.indices, static_cast<uint32_t*>(indices_.mapped));
+    }
+    ~DrawnMesh()
+    {
+        destroyHostBuffer(&host_, vertices_);
+        destroyHostBuffer(&host_, indices_);
+    }
+    DrawnMesh(const DrawnMesh&) = delete;
+    DrawnMesh& operator=(const DrawnMesh&) = delete;
+
+    VkBuffer vertices() const { return vertices_.buffer; }
+    void bind(VkCommandBuffer cmd) const
+    {
+        const VkDeviceSize start = 0;
+        vkCmdBindVertexBuffers(cmd, 0, 1, &vertices_.buffer, &start);
+        vkCmdBindIndexBuffer(cmd, indices_.buffer, 0, VK_INDEX_TYPE_UINT32);
+    }
+    void draw(VkCommandBuffer cmd) const { vkCmdDrawIndexed(cmd, indexCount_, 1, 0, 0, 0); }
+
+private:
+    const Host& host_;
+    HostBuffer vertices_, indices_;
+    uint32_t indexCount_;
+};
+
 class Renderer
 {
 public:
-    Renderer(const Host& host, const Mesh& mesh)
+    explicit Renderer(const Host& host)
         : host_(host),
           raster_(createRaster(host.device, {.vertex = box_vert,
                                              .fragment = box_frag,
@@ -131,14 +166,8 @@ public:
                                              .attributes = attributes,
                                              .vertexBytes = sizeof(Vertex),
                                              .depthTest = VK_COMPARE_OP_GREATER,
-                                             .colours = formats})),
-          vertices_(createHostBuffer(&host, mesh.vertices.size() * sizeof(Vertex),
-                                     VK_BUFFER_USAGE_VERTEX_BUFFER_BIT)),
-          indices_(createHostBuffer(&host, mesh.indices.size() * sizeof(uint32_t),
-                                    VK_BUFFER_USAGE_INDEX_BUFFER_BIT))
+                                             .colours = formats}))
     {
-        std::ranges::copy(mesh.vertices, static_cast<Vertex*>(vertices_.mapped));
-        std::ranges::copy(mesh.indices, static_cast<uint32_t*>(indices_.mapped));
         for (int i = 0; i < 3; ++i)
             images_[i] = createHostImage(
                 &host, formats[i], host.width, host.height,
@@ -152,8 +181,6 @@ public:
     {
         for (const HostImage& image : images_)
             destroyHostImage(&host_, image);
-        destroyHostBuffer(&host_, vertices_);
-        destroyHostBuffer(&host_, indices_);
         destroyRaster(host_.device, raster_);
     }
     Renderer(const Renderer&) = delete;
@@ -171,8 +198,10 @@ public:
                 .depth = images_[3].view,
                 .radiance = images_[2].view};
     }
-    // Leaves the images in the state that CndLightingFrame requires.
-    void draw(VkCommandBuffer cmd, const std::vector<Object>& objects) const
+    // Draws boxes, and the last object as the stalk. Leaves the images in the state that
+    // CndLightingFrame requires.
+    void draw(VkCommandBuffer cmd, const std::vector<Object>& objects, const DrawnMesh& box,
+              const DrawnMesh& stalk) const
     {
         VkRenderingAttachmentInfo colours[3];
         for (int i = 0; i < 3; ++i) {
@@ -184,17 +213,16 @@ public:
         beginRaster(cmd, raster_, {host_.width, host_.height}, colours,
                     attachment(images_[3], depthAttachment.layout, VK_ATTACHMENT_LOAD_OP_CLEAR,
                                VK_ATTACHMENT_STORE_OP_STORE));
-        const VkDeviceSize start = 0;
-        vkCmdBindVertexBuffers(cmd, 0, 1, &vertices_.buffer, &start);
-        vkCmdBindIndexBuffer(cmd, indices_.buffer, 0, VK_INDEX_TYPE_UINT32);
         const CndCamera camera = cameraOf(host_);
         const glm::mat4 clipFromWorld =
             glm::make_mat4(camera.clipFromView) * glm::mat4(glm::make_mat4(camera.viewFromWorld));
         for (const Object& o : objects) {
+            const DrawnMesh& mesh = &o == &objects.back() ? stalk : box;
+            mesh.bind(cmd);
             const Push push{clipFromWorld, glm::mat3x4(glm::transpose(o.worldFromMesh)),
                             glm::vec4(o.albedo, 1)};
             vkCmdPushConstants(cmd, raster_.layout, stages, 0, sizeof push, &push);
-            vkCmdDrawIndexed(cmd, 36, 1, 0, 0, 0);
+            mesh.draw(cmd);
         }
         vkCmdEndRendering(cmd);
         for (int i = 0; i < 2; ++i)
@@ -206,15 +234,15 @@ public:
 private:
     const Host& host_;
     Raster raster_;
-    HostBuffer vertices_, indices_;
     std::array<HostImage, 4> images_; // normal, albedo, radiance, depth
 };
 
 // The shadows begin here: each object that the host draws is an instance of an occluder mesh.
 static std::vector<CndOccluderInstance> occludersOf(const std::vector<Object>& objects,
-                                                    CndOccluderMeshId mesh)
+                                                    CndOccluderMeshId box, CndOccluderMeshId stalk)
 {
-    std::vector<CndOccluderInstance> out(objects.size(), {.mesh = mesh});
+    std::vector<CndOccluderInstance> out(objects.size(), {.mesh = box});
+    out.back().mesh = stalk;
     for (size_t i = 0; i < objects.size(); ++i)
         candelabra::assign(out[i].worldFromMesh, objects[i].worldFromMesh);
     return out;
@@ -224,8 +252,10 @@ static std::vector<CndOccluderInstance> occludersOf(const std::vector<Object>& o
 // both.
 static std::array<std::vector<float>, 2> drawFrames(Host& host)
 {
-    const Mesh mesh = boxMesh();
-    const Renderer renderer(host, mesh);
+    const Mesh boxes = boxMesh(), straight = straightStalk();
+    const DrawnMesh drawnBox(host, boxes), drawnStalk(host, straight);
+    const StalkBender bender(host, drawnStalk.vertices());
+    const Renderer renderer(host);
     auto lighting =
         orExit(candelabra::Lighting::create(deviceOf(host), {.framesInFlight = 1,
                                                              .gbufferLayout = CND_GBUFFER_HOST,
@@ -233,23 +263,31 @@ static std::array<std::vector<float>, 2> drawFrames(Host& host)
                                                              .shadows = {.points = 64}}));
     auto view = orExit(lighting.createView({.maxWidth = host.width, .maxHeight = host.height}));
     orExit(lighting.setLights(lamps(), {0, 0, 0}));
-    const CndOccluderMeshId box =
-        orExit(lighting.addOccluderMesh({.positions = &mesh.vertices[0].position.x,
-                                         .stride = sizeof(Vertex),
-                                         .vertexCount = uint32_t(mesh.vertices.size()),
-                                         .indices = mesh.indices.data(),
-                                         .triangleCount = uint32_t(mesh.indices.size() / 3)}));
-    std::vector<CndOccluderId> ids(1 + boxCount);
-    orExit(lighting.addOccluders(occludersOf(objectsAt(0), box), ids));
+    const auto addMesh = [&](const Mesh& mesh) {
+        return orExit(
+            lighting.addOccluderMesh({.positions = &mesh.vertices[0].position.x,
+                                      .stride = sizeof(Vertex),
+                                      .vertexCount = uint32_t(mesh.vertices.size()),
+                                      .indices = mesh.indices.data(),
+                                      .triangleCount = uint32_t(mesh.indices.size() / 3)}));
+    };
+    const CndOccluderMeshId box = addMesh(boxes), stalk = addMesh(straight);
+    std::vector<CndOccluderId> ids(objectsAt(0).size());
+    orExit(lighting.addOccluders(occludersOf(objectsAt(0), box, stalk), ids));
+    const CndDevicePositions bent{
+        .mesh = stalk, .buffer = drawnStalk.vertices(), .stride = sizeof(Vertex)};
 
     std::array<std::vector<float>, 2> radiance;
     constexpr int frames = 3;
     for (int i = 0; i <= frames; ++i) {
         const bool shadows = i < frames;
-        const std::vector<Object> objects = objectsAt(float(std::min(i, frames - 1)));
-        orExit(lighting.updateOccluders(ids, occludersOf(objects, box)));
+        const float time = float(std::min(i, frames - 1));
+        const std::vector<Object> objects = objectsAt(time);
+        orExit(lighting.updateOccluders(ids, occludersOf(objects, box, stalk)));
         const VkCommandBuffer cmd = beginFrame(&host);
-        renderer.draw(cmd, objects);
+        bender.record(cmd, 1.1f * time - 0.8f);
+        orExit(lighting.replaceOccluderPositionsOnDevice({&bent, 1}));
+        renderer.draw(cmd, objects, drawnBox, drawnStalk);
         CndLightingFrame frame = renderer.frame();
         frame.shadowsOff = !shadows;
         frame.countPairs = VK_TRUE; // for the statistics

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds which points of a light's facet (lib/visibility) a receiver sees: it walks through the tree
 // over the instances of occluders, and through the trees of the meshes that the light's cone touches.
-// The lanes of a subgroup walk together, and visit what one of them needs. Lanes that walked alone would
-// be in different meshes, and would wait for each other.
+// The lanes of a subgroup walk together, and visit what one of them needs. Lanes that walked alone
+// would be in different meshes, and would wait for each other.
 // The includer defines occluderInstance(), occluderNode() and occluderTriangle(), which read an
 // element of an array (shared/occluder_data.h), and facetOf().
 #ifndef CND_SHADING_OCCLUDER_WALK

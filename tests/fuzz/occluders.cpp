@@ -151,7 +151,7 @@ public:
     {
         vulkan_.failableCalls.clear();
         while (!input_.ended())
-            edit(input_.below(10));
+            edit(input_.below(11));
         record();
         removeAll();
         require(vulkan_.misuse.empty(), "misuse of Vulkan");
@@ -174,7 +174,9 @@ private:
             removeInstances();
         else if (what == 6)
             editLights();
-        else if (what == 7 || input_.below(2))
+        else if (what == 7)
+            replacePositionsOnDevice();
+        else if (what == 8 || input_.below(2))
             record();
         else if (!input_.below(8)) // takes longer than all the others
             createAnother();
@@ -281,6 +283,24 @@ private:
              [&](CndError* error) {
                  return cndReplaceOccluderPositions(lighting_, mesh, points.data(), bytes, error);
              });
+    }
+    void replacePositionsOnDevice()
+    {
+        std::vector<uint64_t> ids;
+        Allowed allowed = someIds(meshes_, ids);
+        std::vector<CndDevicePositions> some(ids.size());
+        for (size_t i = 0; i < ids.size(); ++i) {
+            some[i] = {.mesh = ids[i],
+                       .buffer = input_.below(16) ? MockVulkan::hostBuffer() : VK_NULL_HANDLE,
+                       .offset = input_.below(8) ? 4 * input_.below(200) : input_.read<uint64_t>(),
+                       .stride = stride()};
+            allowed = both(allowed, allowedIf(some[i].buffer && some[i].offset % 4 == 0 &&
+                                              strideIsAllowed(some[i].stride)));
+        }
+        call(allowed, [&](CndError* error) {
+            return cndReplaceOccluderPositionsOnDevice(lighting_, uint32_t(some.size()),
+                                                       some.data(), error);
+        });
     }
     void removeMeshes()
     {

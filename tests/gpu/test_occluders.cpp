@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The device has the meshes, trees and records of occluders that the host has, after any edits, and
 // prepare_occluders transforms instances as double precision does.
+#include <bit>
+#include <limits>
 #include <random>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -14,6 +16,7 @@ namespace candelabra::test
 namespace
 {
 
+using lighting::DevicePositions;
 using lighting::OccluderId;
 using lighting::OccluderInstance;
 using lighting::OccluderMesh;
@@ -60,6 +63,81 @@ protected:
             out.worldFromMesh[4 * row + 3] = position[row];
         }
         return out;
+    }
+    // Adds a grid of squares, whose triangles share vertices, and returns its id.
+    OccluderMeshId addGrid(OccluderHost& host, uint32_t side)
+    {
+        std::vector<glm::vec3> p;
+        std::vector<uint32_t> indices;
+        for (uint32_t y = 0; y <= side; ++y)
+            for (uint32_t x = 0; x <= side; ++x) {
+                p.emplace_back(x, y, 0);
+                if (const uint32_t i = y * (side + 1) + x; x < side && y < side)
+                    indices.insert(indices.end(),
+                                   {i, i + 1, i + side + 1, i + side + 1, i + 1, i + side + 2});
+            }
+        const OccluderMesh mesh{.positions = &p[0].x,
+                                .vertexCount = uint32_t(p.size()),
+                                .indices = indices.data(),
+                                .triangleCount = uint32_t(indices.size() / 3)};
+        OccluderMeshId id = 0;
+        host.set.addMeshes({&mesh, 1}, &id);
+        return id;
+    }
+    // A buffer of the host, as a kernel of its own leaves it: `offset` bytes, then the positions.
+    gpu::Buffer written(const std::vector<glm::vec3>& positions, size_t offset, size_t stride)
+    {
+        gpu::Buffer out =
+            gpu::createBuffer(device(), "pose", offset + positions.size() * stride,
+                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::MemoryUse::Upload);
+        for (size_t i = 0; i < positions.size(); ++i)
+            std::memcpy(out.mapped + offset + i * stride, &positions[i], sizeof positions[i]);
+        return out;
+    }
+    // Expects that the device has fitted the tree over instances: no node lacks any of its items,
+    // as double precision transforms them, and none is much larger. (Leaves of removed instances
+    // keep their boxes.)
+    void expectFittedInstances(const lighting::OccluderSet& set,
+                               std::span<const gpu::OccluderNode> nodes)
+    {
+        const lighting::InstanceTable& instances = set.instances();
+        const auto tree = nodes.subspan(set.meshes().firstInstanceNode());
+        const uint32_t count = instances.places() ? tree[0].skip : 0;
+        for (uint32_t node = 0; node < count && !HasFailure(); ++node) {
+            glm::dvec3 low(1e30), high(-1e30);
+            bool removed = false;
+            for (uint32_t n = node; n < tree[node].skip; ++n)
+                for (uint32_t place = lighting::leafFirst(tree[n]);
+                     tree[n].leaf && place < lighting::leafEnd(tree[n]); ++place) {
+                    const gpu::OccluderRecord& r = instances.records()[place];
+                    removed |= r.flags == 0;
+                    if (r.flags)
+                        addCorners(r, lighting::boxOf(nodes[r.firstNode]), instances.origin(), low,
+                                   high);
+                }
+            const lighting::Box found = lighting::boxOf(tree[node]);
+            const double slack = 1e-4 * (glm::length(high - low) + glm::length(low));
+            for (int axis = 0; axis < 3; ++axis) {
+                EXPECT_LE(found.low[axis], low[axis]) << node;
+                EXPECT_GE(found.high[axis], high[axis]) << node;
+                EXPECT_TRUE(removed || found.low[axis] > low[axis] - slack) << node;
+                EXPECT_TRUE(removed || found.high[axis] < high[axis] + slack) << node;
+            }
+        }
+    }
+    // Adds the corners of a mesh's box, relative to the origin of the tree over instances.
+    static void addCorners(const gpu::OccluderRecord& r, const lighting::Box& box,
+                           const glm::dvec3& origin, glm::dvec3& low, glm::dvec3& high)
+    {
+        for (int corner = 0; corner < 8; ++corner) {
+            glm::dvec3 p;
+            for (int axis = 0; axis < 3; ++axis)
+                p[axis] = (corner >> axis & 1 ? box.high : box.low)[axis];
+            p = glm::dmat3(r.worldFromLocal) * p + glm::dvec3(r.positionHi) +
+                glm::dvec3(r.positionLo) - origin;
+            low = glm::min(low, p);
+            high = glm::max(high, p);
+        }
     }
     void record(OccluderHost& host, const glm::dmat4& view)
     {
@@ -153,6 +231,106 @@ TEST_F(OccluderTest, EditsOfInstancesAndMeshesFitIntoOneUpload)
     addMesh(host, 9000);
     record(host, glm::dmat4(1));
     expectAllOnDevice(host.set);
+}
+
+// After any pose on the device, triangles and nodes have the bits that the host would upload.
+TEST_F(OccluderTest, PositionsOnTheDeviceGiveTheTreesOfTheHost)
+{
+    OccluderHost host(device()), twin(device()); // the twin gets every pose from the CPU
+    std::vector<OccluderMeshId> meshes, twins;
+    const auto addMeshes = [&] {
+        for (const uint32_t side : {1u, 3u, 20u, 100u}) {
+            meshes.push_back(addGrid(host, side));
+            twins.push_back(addGrid(twin, side));
+        }
+    };
+    addMeshes();
+    const auto vertexCount = [&](size_t mesh) {
+        return host.set.meshes()[meshes[mesh]].vertexCount;
+    };
+    std::vector<gpu::Buffer> buffers;
+    const auto pose = [&](size_t mesh, float size, size_t offset, size_t stride) {
+        std::vector<glm::vec3> p(vertexCount(mesh));
+        for (glm::vec3& q : p)
+            q = glm::vec3(point(size));
+        buffers.push_back(written(p, offset, stride));
+        const DevicePositions given{.mesh = meshes[mesh],
+                                    .buffer = buffers.back().get(),
+                                    .offset = offset,
+                                    .stride = stride == 12 ? 0 : uint32_t(stride)};
+        host.set.replacePositionsOnDevice({&given, 1});
+        twin.set.replacePositions(twins[mesh], &p[0].x, 0);
+    };
+    const auto expectSame = [&] {
+        record(host, glm::dmat4(1));
+        record(twin, glm::dmat4(1));
+        const lighting::MeshTable& table = host.set.meshes();
+        const auto nodes = read<gpu::OccluderNode>(table.nodes(), table.allNodes().size());
+        const auto triangles =
+            read<gpu::OccluderTriangle>(table.triangles(), table.allTriangles().size());
+        for (size_t i = 0; i < meshes.size(); ++i) {
+            const auto &m = table[meshes[i]], &t = twin.set.meshes()[twins[i]];
+            const auto expected = twin.set.meshes().nodesOf(t);
+            EXPECT_EQ(std::memcmp(&nodes[m.firstNode], expected.data(), expected.size_bytes()), 0)
+                << "nodes of mesh " << i;
+            const auto theirs =
+                twin.set.meshes().allTriangles().subspan(t.firstTriangle, t.triangleCount);
+            EXPECT_EQ(std::memcmp(&triangles[m.firstTriangle], theirs.data(), theirs.size_bytes()),
+                      0)
+                << "triangles of mesh " << i;
+        }
+        expectFittedInstances(host.set, nodes);
+    };
+    for (const size_t mesh : {0u, 2u, 3u})
+        pose(mesh, 1, 0, 12);
+    expectSame(); // before there is an instance
+    std::vector<OccluderId> ids(300);
+    for (OccluderId& id : ids) {
+        const OccluderInstance added = instance(meshes[random_() % meshes.size()]);
+        host.set.add({&added, 1}, &id);
+    }
+    expectSame();
+    pose(0, 1e6f, 4, 16); // far from the first pose
+    pose(3, 1e-6f, 260, 32);
+    expectSame();
+    pose(1, 1, 52, 20); // these share blocks of uploads with other meshes
+    twin.set.replacePositions(twins[2], std::vector<float>(3 * vertexCount(2)).data(), 0);
+    host.set.replacePositions(meshes[2], std::vector<float>(3 * vertexCount(2)).data(), 0);
+    expectSame();
+    addMeshes(); // buffers grow, and everything is uploaded again
+    host.set.remove(std::span(ids).first(120));
+    const OccluderInstance moved = instance(meshes[1]);
+    host.set.update({&ids[200], 1}, {&moved, 1});
+    expectSame();
+    host.set.remove(std::span(ids).subspan(120));
+    host.set.removeMeshes({&meshes[3], 1});
+    meshes.erase(meshes.begin() + 3);
+    twins.erase(twins.begin() + 3);
+    pose(5, 1, 0, 12);
+    expectSame();
+}
+
+// What no host could give counts as 0.
+TEST_F(OccluderTest, PositionsOnTheDeviceAreMadeFinite)
+{
+    constexpr float endless = std::numeric_limits<float>::infinity();
+    OccluderHost host(device());
+    const OccluderMeshId mesh = addGrid(host, 1);
+    const std::vector<glm::vec3> p = {{std::nanf(""), 1, -2e15f},
+                                      {-0.f, endless, 1e15f},
+                                      {3, -endless, -std::nanf("")},
+                                      {std::bit_cast<float>(1u), -1e15f, 5}};
+    const gpu::Buffer buffer = written(p, 0, 12);
+    const DevicePositions given{.mesh = mesh, .buffer = buffer.get()};
+    host.set.replacePositionsOnDevice({&given, 1});
+    record(host, glm::dmat4(1));
+    const glm::vec3 a(0, 1, 0), b(0, 0, 1e15f), c(3, 0, 0), d(std::bit_cast<float>(1u), -1e15f, 5);
+    std::vector<gpu::OccluderTriangle> expected;
+    for (const glm::uvec3& corners : host.set.meshes()[mesh].corners) {
+        const glm::vec3 all[] = {a, b, c, d};
+        expected.push_back({{all[corners.x], all[corners.y], all[corners.z]}});
+    }
+    expectOnDevice(host.set.meshes().triangles(), std::span<const gpu::OccluderTriangle>(expected));
 }
 
 TEST_F(OccluderTest, InstancesAreTransformedAsInDoublePrecision)

@@ -59,13 +59,18 @@ protected:
     // Adds boxes, which some lights are proven to be behind. The size is that of a side.
     void addBoxes(uint32_t count, double size, uint32_t seed)
     {
-        random_.seed(seed);
         const app::Mesh box = app::makeBox();
         addMesh({.positions = &box.vertices[0].position.x,
                  .stride = sizeof box.vertices[0],
                  .vertexCount = uint32_t(box.vertices.size()),
                  .indices = box.indices.data(),
                  .triangleCount = uint32_t(box.indices.size() / 3)});
+        addFlatInstances(count, size, seed);
+    }
+    // Adds instances of the mesh added last, some of them in layers or with a surface error.
+    void addFlatInstances(uint32_t count, double size, uint32_t seed)
+    {
+        random_.seed(seed);
         std::vector<CndOccluderInstance> instances;
         for (uint32_t i = 0; i < count; ++i) {
             instances.push_back(someInstance(meshes_.back(), i % 3));
@@ -92,6 +97,71 @@ protected:
                   CND_SUCCESS)
             << error.message;
         instances_.insert(instances_.end(), instances.begin(), instances.end());
+    }
+    // A sheet of 2 m, whose triangles share vertices: its indices, and its positions when it is
+    // bent.
+    static constexpr uint32_t sheetSide = 20;
+    static std::vector<uint32_t> sheetIndices()
+    {
+        std::vector<uint32_t> out;
+        for (uint32_t i = 0; i < sheetSide * (sheetSide + 1); ++i)
+            if (i % (sheetSide + 1) < sheetSide)
+                for (const uint32_t corner :
+                     {i, i + 1, i + sheetSide + 1, i + sheetSide + 1, i + 1, i + sheetSide + 2})
+                    out.push_back(corner);
+        return out;
+    }
+    static std::vector<glm::vec3> bentSheet(float bend)
+    {
+        std::vector<glm::vec3> out;
+        for (uint32_t y = 0; y <= sheetSide; ++y)
+            for (uint32_t x = 0; x <= sheetSide; ++x) {
+                const glm::vec2 p = glm::vec2(x, y) * (2.0f / sheetSide) - 1.0f;
+                out.emplace_back(p, bend * std::sin(3 * p.x + bend));
+            }
+        return out;
+    }
+    void addSheets(const std::vector<glm::vec3>& positions, uint32_t seed)
+    {
+        const std::vector<uint32_t> indices = sheetIndices();
+        addMesh({.positions = &positions[0].x,
+                 .vertexCount = uint32_t(positions.size()),
+                 .indices = indices.data(),
+                 .triangleCount = uint32_t(indices.size() / 3)});
+        random_.seed(seed);
+        std::vector<CndOccluderInstance> instances;
+        for (int i = 0; i < 12; ++i)
+            instances.push_back(someInstance(meshes_.back(), 0));
+        addInstances(instances);
+    }
+    // What the sheets look like when they are added in this pose.
+    LightingResult drawAnew(const std::vector<CndLight>& lights,
+                            const std::vector<glm::vec3>& positions, uint32_t seed)
+    {
+        removeOccluders();
+        addSheets(positions, seed);
+        return draw(lights);
+    }
+    // Takes the positions of the mesh added last from a buffer of the device.
+    void takeFrom(const gpu::Buffer& buffer, VkDeviceSize offset = 0)
+    {
+        const CndDevicePositions positions{
+            .mesh = meshes_.back(), .buffer = buffer.get(), .offset = offset};
+        CndError error{};
+        EXPECT_EQ(cndReplaceOccluderPositionsOnDevice(lighting(), 1, &positions, &error),
+                  CND_SUCCESS)
+            << error.message;
+    }
+    // A buffer of the host with these poses one after the other.
+    gpu::Buffer posesOnDevice(const std::vector<std::vector<glm::vec3>>& poses)
+    {
+        const size_t bytes = poses[0].size() * sizeof(glm::vec3);
+        gpu::Buffer out =
+            gpu::createBuffer(device(), "poses", poses.size() * bytes,
+                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::MemoryUse::Upload);
+        for (size_t i = 0; i < poses.size(); ++i)
+            std::memcpy(out.mapped + i * bytes, poses[i].data(), bytes);
+        return out;
     }
     CndOccluderInstance someInstance(CndOccluderMeshId mesh, uint32_t layer)
     {
@@ -487,6 +557,96 @@ TEST_F(VisibilityFrames, TenRunsHaveTheSameBits)
         EXPECT_TRUE(sameBits(draw(lights, {.frames = 1 + i % 3, .unchanged = i % 2 == 0}), first));
 }
 
+// A pose on the device gives the picture of a mesh that is added in this pose, also with lists that
+// an earlier pose made, and however far it is from the pose that the tree was built for.
+TEST_F(VisibilityFrames, PosesOnTheDeviceGiveTheShadowsOfANewMesh)
+{
+    const auto lights = lightsOf(CND_LIGHT_SPHERE, surfaces, 25, 1);
+    std::vector<glm::vec3> far = bentSheet(0.3f), point = far, line = far;
+    for (size_t i = 0; i < far.size(); ++i) {
+        far[i].x += 500;
+        point[i] = {0, 1, 0};
+        line[i].y = line[i].z = 0;
+    }
+    const std::vector<std::vector<glm::vec3>> poses = {bentSheet(0.6f), point, line, bentSheet(0)};
+    const gpu::Buffer buffer = posesOnDevice(poses);
+    std::vector<LightingResult> expected;
+    for (const auto& pose : poses)
+        expected.push_back(drawAnew(lights, pose, 9));
+    EXPECT_FALSE(sameBits(expected[0], expected[3]));
+    EXPECT_TRUE(sameBits(expected[1], expected[2])) << "without an area nothing casts a shadow";
+    removeOccluders();
+    addOccluders(1, 1); // another mesh
+    addSheets(far, 9);
+    const CndOccluderId other = occluders_[0];
+    EXPECT_EQ(cndRemoveOccluders(lighting(), 1, &other, nullptr), CND_SUCCESS);
+    occluders_.erase(occluders_.begin());
+    for (size_t i = 0; i < poses.size(); ++i) {
+        takeFrom(buffer, i * poses[0].size() * sizeof(glm::vec3));
+        EXPECT_TRUE(sameBits(draw(lights), expected[i])) << i;
+    }
+    int drawn = 0;
+    RunOptions kept{.frames = 2, .unchanged = true};
+    kept.beforeFrame = [&] {
+        if (++drawn == 2)
+            takeFrom(buffer);
+    };
+    EXPECT_TRUE(sameBits(draw(lights, kept), expected[0]));
+}
+
+// A closed mesh of shared vertices, whose positions are on the device, hides lights from whole
+// clusters. No pixel changes by that.
+TEST_F(VisibilityFrames, BoxesOnTheDeviceProveDarkness)
+{
+    std::vector<glm::vec3> corners;
+    for (int i = 0; i < 8; ++i)
+        corners.emplace_back(i & 1 ? 0.5 : -0.5, i & 2 ? 0.5 : -0.5, i & 4 ? 0.5 : -0.5);
+    const uint32_t indices[] = {0, 1, 2, 2, 1, 3, 4, 6, 5, 5, 6, 7, 0, 4, 1, 1, 4, 5,
+                                2, 3, 6, 6, 3, 7, 0, 2, 4, 4, 2, 6, 1, 5, 3, 3, 5, 7};
+    std::vector<glm::vec3> small = corners;
+    for (glm::vec3& corner : small)
+        corner *= 0.01f;
+    addMesh({.positions = &small[0].x, .vertexCount = 8, .indices = indices, .triangleCount = 12});
+    addFlatInstances(30, 12, 1);
+    auto lights = lightsOf(CND_LIGHT_SPHERE, surfaces, 60, 1);
+    for (CndLight& light : lights)
+        light.influenceRadius *= 4;
+    const gpu::Buffer buffer = posesOnDevice({corners});
+    takeFrom(buffer);
+    const LightingResult listed = draw(lights);
+    EXPECT_GT(listed.stats.wonProofs, 0u);
+    const LightingResult brute = draw(lights, {.culling = CND_CULLING_BRUTE});
+    EXPECT_TRUE(agree(listed.radiance, brute.radiance, batchesOnLlvmpipe));
+}
+
+// Each of two frames in flight has the pose that it was recorded with.
+TEST_F(VisibilityFrames, FramesInFlightKeepTheirPoses)
+{
+    const auto lights = lightsOf(CND_LIGHT_SPHERE, surfaces, 25, 1);
+    const std::vector<std::vector<glm::vec3>> poses = {bentSheet(0.7f), bentSheet(-0.4f)};
+    const gpu::Buffer buffer = posesOnDevice(poses);
+    const LightingResult expected[] = {drawAnew(lights, poses[0], 10),
+                                       drawAnew(lights, poses[1], 10)};
+    const CndLightingViewDesc desc{
+        .structSize = sizeof desc, .maxWidth = surfaces.width, .maxHeight = surfaces.height};
+    CndLightingView view = nullptr;
+    ASSERT_EQ(cndCreateLightingView(lighting(), &desc, &view, nullptr), CND_SUCCESS);
+    const Images images[] = {uploadImages(surfaces), uploadImages(surfaces)};
+    context().submitAndWait([&](VkCommandBuffer cmd) {
+        for (uint32_t slot = 0; slot < 2; ++slot) {
+            clearRadiance(cmd, images[slot]);
+            takeFrom(buffer, slot * poses[0].size() * sizeof(glm::vec3));
+            CndLightingFrame frame =
+                frameOf(surfaces, images[slot], {.specular = CND_SPECULAR_CONIC});
+            frame.frameSlot = slot;
+            EXPECT_EQ(cndRecordLighting(view, cmd, &frame, nullptr), CND_SUCCESS);
+        }
+    });
+    for (uint32_t slot = 0; slot < 2; ++slot)
+        EXPECT_TRUE(sameBits(readRadiance(images[slot]), expected[slot].radiance)) << slot;
+    cndDestroyLightingView(view);
+}
+
 // Lists that were made without shadows are not kept for a frame with shadows.
 TEST_F(VisibilityFrames, ShadowsMayComeWhileNothingMoves)
 {
@@ -610,8 +770,8 @@ TEST_F(VisibilityFrames, PassesOfShadowsBelongToModulesWithShadows)
         passes(run(surfaces, lights, {.specular = CND_SPECULAR_CONIC}));
     std::set<std::string> with = passes(draw(lights));
     EXPECT_EQ(without.size(), 16u);
-    for (const char* name : {"prepare_occluders", "polygon_facets", "prove_dark", "ask_pairs",
-                             "list_occluders", "pair_visibility", "count_shadows"})
+    for (const char* name : {"refit_occluders", "prepare_occluders", "polygon_facets", "prove_dark",
+                             "ask_pairs", "list_occluders", "pair_visibility", "count_shadows"})
         EXPECT_EQ(with.erase(name), 1u) << name;
     EXPECT_EQ(with, without);
 }

@@ -51,6 +51,7 @@ struct OccluderHost {
         frame.barrier();
         set.recordUpload(frame, recording);
         frame.barrier();
+        set.recordRefit(frame, recording);
         prepared.record(frame, set.instances(), viewFromWorld);
         frame.barrier();
         slots.recordEnd(frame, counters);

@@ -255,8 +255,10 @@ struct Override {
             const bool buffer = w.descriptorType == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER ||
                                 w.descriptorType == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
             const bool ofHost = buffer && w.pBufferInfo->buffer == MockVulkan::hostBuffer();
-            if ((texels || buffer) && !ofHost) // the mock does not track images, which are the
-                                               // host's
+            // The mock does not track what is the host's, such as all images.
+            if (ofHost)
+                mock->sets[w.dstSet].resources.erase(w.dstBinding);
+            else if (texels || buffer)
                 mock->sets[w.dstSet].resources[w.dstBinding] =
                     texels ? toNumber(*w.pTexelBufferView) : toNumber(w.pBufferInfo->buffer);
         }

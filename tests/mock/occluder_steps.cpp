@@ -107,6 +107,15 @@ std::vector<Step> shadowCreationSteps()
     };
 }
 
+// Both meshes from buffers on the device.
+CndResult useDevicePositions(Host& h, VkDeviceSize offset, CndError* error)
+{
+    const CndDevicePositions positions[] = {
+        {.mesh = h.occluderMesh, .buffer = MockVulkan::hostBuffer(), .offset = offset},
+        {.mesh = occluderInputs().largeMesh, .buffer = MockVulkan::hostBuffer(), .stride = 32}};
+    return cndReplaceOccluderPositionsOnDevice(h.lighting, 2, positions, error);
+}
+
 // Adds, changes and removes occluders, and records after each.
 std::vector<Step> occluderEditSteps()
 {
@@ -137,6 +146,12 @@ std::vector<Step> occluderEditSteps()
                                                 occluderInputs().positions + 3, 0, error);
          }},
         {"record what has moved", true, recordShadows},
+        {"use positions on the device", false,
+         [](Host& h, CndError* error) { return useDevicePositions(h, 0, error); }},
+        {"record what is on the device", true, recordShadows},
+        {"use other positions on the device", false,
+         [](Host& h, CndError* error) { return useDevicePositions(h, 1004, error); }},
+        {"record what is there now", true, recordShadows},
         {"remove occluders", false,
          [](Host& h, CndError* error) {
              const CndResult result =

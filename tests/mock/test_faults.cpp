@@ -54,7 +54,7 @@ const Family families[] = {
      100,
      1000,
      {"create lighting", "create view", "add mesh", "add occluders", "add a larger mesh",
-      "add more occluders"},
+      "add more occluders", "use positions on the device"},
      {"CreateBuffer", "AllocateMemory", "BindBufferMemory", "MapMemory", "CreateBufferView",
       "CreateShaderModule", "CreateComputePipelines", "CreatePipelineLayout",
       "CreateDescriptorSetLayout", "CreateDescriptorPool", "AllocateDescriptorSets"}},

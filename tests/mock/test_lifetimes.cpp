@@ -103,7 +103,7 @@ public:
     // Adds a mesh and instances of it, changes both, or removes them.
     void editOccluders()
     {
-        const uint32_t what = pick(3);
+        const uint32_t what = pick(4);
         if (occluders_.empty()) {
             positions_.resize(9 * (1 + pick(5000)));
             for (float& p : positions_)
@@ -125,6 +125,12 @@ public:
             ASSERT_TRUE(
                 lighting_.updateOccluders(std::span(occluders_).first(moved.size()), moved));
             ASSERT_TRUE(lighting_.replaceOccluderPositions(instance_.mesh, positions_.data()));
+        } else if (what == 2) {
+            const CndDevicePositions positions{.mesh = instance_.mesh,
+                                               .buffer = MockVulkan::hostBuffer(),
+                                               .offset = 4 * pick(1000),
+                                               .stride = 12 + 4 * pick(6)};
+            ASSERT_TRUE(lighting_.replaceOccluderPositionsOnDevice({&positions, 1}));
         } else {
             ASSERT_TRUE(lighting_.removeOccluders(occluders_));
             ASSERT_TRUE(lighting_.removeOccluderMeshes({&instance_.mesh, 1}));

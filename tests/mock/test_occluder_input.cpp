@@ -145,6 +145,74 @@ TEST_F(OccluderInput, MeshesAreChecked)
             replace + "stride is 4, must be 0 or a multiple of 4 that is at least 12");
 }
 
+TEST_F(OccluderInput, PositionsOnTheDeviceAreChecked)
+{
+    const CndDevicePositions right{.mesh = instance_.mesh, .buffer = MockVulkan::hostBuffer()};
+    const auto refusedPositions = [&](const CndDevicePositions& wrong, const std::string& why,
+                                      CndResult code = CND_ERROR_INVALID_ARGUMENT) {
+        const CndDevicePositions both[] = {right, wrong};
+        refused(lighting_.replaceOccluderPositionsOnDevice(both),
+                "cndReplaceOccluderPositionsOnDevice: " + why, code);
+    };
+    vulkan_.called.clear();
+    CndDevicePositions wrong = right;
+    refusedPositions(wrong, "the id 4294967296 is given twice");
+    wrong.mesh = 7;
+    refusedPositions(wrong, "no occluder mesh has the id 7");
+    wrong.mesh = lighting_.addOccluderMesh(mesh_).value();
+    wrong.buffer = nullptr;
+    refusedPositions(wrong, "positions 1: buffer is null");
+    wrong.buffer = right.buffer;
+    wrong.offset = 6;
+    refusedPositions(wrong, "positions 1: offset is 6, must be a multiple of 4");
+    wrong.offset = 0;
+    for (const uint32_t stride : {8u, 14u}) {
+        wrong.stride = stride;
+        refusedPositions(wrong, "positions 1: stride is " + std::to_string(stride) +
+                                    ", must be 0 or a multiple of 4 that is at least 12");
+    }
+    wrong.stride = 1u << 31;
+    refusedPositions(wrong,
+                     "positions 1: they take 4294967308 bytes, too many for the device's "
+                     "maxStorageBufferRange, " +
+                         std::to_string(vulkan_.limits.maxStorageBufferRange),
+                     CND_ERROR_UNSUPPORTED);
+    EXPECT_FALSE(vulkan_.called.contains("CreateComputePipelines")) << "nothing uses it yet";
+    ASSERT_TRUE(lighting_.replaceOccluderPositionsOnDevice({&right, 1}));
+    EXPECT_TRUE(vulkan_.called.contains("CreateComputePipelines"));
+    record();
+    // Back to positions of the host, and gone.
+    ASSERT_TRUE(lighting_.replaceOccluderPositions(instance_.mesh, oneTriangle));
+    record();
+    ASSERT_TRUE(lighting_.replaceOccluderPositionsOnDevice({&right, 1}));
+    ASSERT_TRUE(lighting_.removeOccluders({&id_, 1}));
+    ASSERT_TRUE(lighting_.removeOccluderMeshes({&instance_.mesh, 1}));
+    record();
+    EXPECT_FALSE(lighting_.replaceOccluderPositionsOnDevice({&right, 1}));
+}
+
+// Trees are fitted on the device after edits, and only if a mesh has positions there.
+TEST_F(OccluderInput, PlansSayWhetherTreesAreFitted)
+{
+    const auto skipped = [&]() -> std::string {
+        record();
+        const CndLightingStats stats = view_.stats(0).value().value();
+        for (uint32_t i = 0; i < stats.passCount; ++i)
+            if (std::string(stats.passes[i].name) == "refit_occluders")
+                return stats.passes[i].skipped ? stats.passes[i].skipped : "";
+        return "no such pass";
+    };
+    EXPECT_EQ(skipped(), "no positions of the device's");
+    const CndDevicePositions positions{.mesh = instance_.mesh, .buffer = MockVulkan::hostBuffer()};
+    for (int i = 0; i < 3; ++i) {
+        ASSERT_TRUE(lighting_.replaceOccluderPositionsOnDevice({&positions, 1}));
+        EXPECT_EQ(skipped(), "");
+        EXPECT_EQ(skipped(), "occluders unchanged");
+    }
+    ASSERT_TRUE(lighting_.updateOccluders({&id_, 1}, {&instance_, 1}));
+    EXPECT_EQ(skipped(), "");
+}
+
 // The sentence comes before pipelines are made, which may take seconds.
 TEST_F(OccluderInput, RaysOfTheHostNeedPoints)
 {
@@ -258,6 +326,9 @@ TEST_F(OccluderInput, NoPointerIsNull)
         refusedNull(
             cndReplaceOccluderPositions(l, instance_.mesh, l ? nullptr : oneTriangle, 0, &error),
             "cndReplaceOccluderPositions");
+        const CndDevicePositions positions{};
+        refusedNull(cndReplaceOccluderPositionsOnDevice(l, 1, l ? nullptr : &positions, &error),
+                    "cndReplaceOccluderPositionsOnDevice");
         refusedNull(cndRemoveOccluderMeshes(l, 1, ids, &error), "cndRemoveOccluderMeshes");
         refusedNull(cndAddOccluders(l, 1, instances, &id, &error), "cndAddOccluders");
         refusedNull(cndAddOccluders(l, 1, &instance_, ids, &error), "cndAddOccluders");
@@ -268,6 +339,7 @@ TEST_F(OccluderInput, NoPointerIsNull)
     EXPECT_EQ(id, 7u);
     // Nothing is read if there is nothing to do.
     EXPECT_EQ(cndAddOccluderMeshes(some, 0, nullptr, nullptr, nullptr), CND_SUCCESS);
+    EXPECT_EQ(cndReplaceOccluderPositionsOnDevice(some, 0, nullptr, nullptr), CND_SUCCESS);
     EXPECT_EQ(cndRemoveOccluderMeshes(some, 0, nullptr, nullptr), CND_SUCCESS);
     EXPECT_EQ(cndAddOccluders(some, 0, nullptr, nullptr, nullptr), CND_SUCCESS);
     EXPECT_EQ(cndUpdateOccluders(some, 0, nullptr, nullptr, nullptr), CND_SUCCESS);
@@ -283,6 +355,9 @@ TEST_F(OccluderInput, AModuleWithoutShadowsHasNone)
     expectSentence(lighting.addOccluderMesh(mesh_).error(), "cndAddOccluderMeshes" + why);
     expectSentence(lighting.replaceOccluderPositions(id, oneTriangle).error(),
                    "cndReplaceOccluderPositions" + why);
+    const CndDevicePositions positions{.mesh = id};
+    expectSentence(lighting.replaceOccluderPositionsOnDevice({&positions, 1}).error(),
+                   "cndReplaceOccluderPositionsOnDevice" + why);
     expectSentence(lighting.removeOccluderMeshes({&id, 1}).error(),
                    "cndRemoveOccluderMeshes" + why);
     expectSentence(lighting.addOccluder(instance_).error(), "cndAddOccluders" + why);

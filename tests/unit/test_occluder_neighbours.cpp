@@ -68,4 +68,19 @@ TEST(OccluderNeighbours, PartWhereNewPositionsDiffer)
     EXPECT_GT(boundaryEdges(copied), 24u);
 }
 
+TEST(OccluderNeighbours, OfVerticesStayWhateverThePositionsAre)
+{
+    const glm::vec3 a(0), b(1, 0, 0), c(0, 1, 0), d(1, 1, 0), e(2, 0, 0);
+    const Triangles three = {{{a, b, c}}, {{d, c, b}}, {{d, b, e}}};
+    const std::vector<glm::uvec3> corners = {{0, 1, 2}, {3, 2, 1}, {3, 7, 4}}; // 7: also at b
+    const auto neighbours = lighting::findNeighbours(three);
+    EXPECT_EQ(boundaryEdges(neighbours), 5u);
+    lighting::Neighbours copied(three.size());
+    lighting::copyNeighboursOfVertices(corners, neighbours, copied);
+    constexpr uint32_t none = gpu::NO_NEIGHBOUR;
+    EXPECT_TRUE(std::ranges::equal(copied[0].edges, std::array{none, 2u, none}));
+    EXPECT_TRUE(std::ranges::equal(copied[1].edges, std::array{none, 0u, none}));
+    EXPECT_EQ(boundaryEdges(copied), 7u);
+}
+
 } // namespace candelabra::test

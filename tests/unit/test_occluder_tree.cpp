@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "harness/occluder_walk.h"
+#include "occluders/refit_plan.h"
 
 namespace candelabra::test
 {
@@ -160,6 +161,56 @@ TEST(OccluderTree, FitsPositionsThatMoved)
         EXPECT_EQ(crossedInTree(tree, s), std::ranges::count_if(tree.triangles, [&](const auto& t) {
                       return crosses(s, t);
                   }));
+    }
+}
+
+// The plan has every node once, children in an earlier round or group than their parents.
+TEST(OccluderTree, IsRefittedFromTheLeavesUp)
+{
+    RandomTriangles random(4);
+    Triangles ever(3000); // makes a tree deep
+    for (size_t i = 0; i < ever.size(); ++i)
+        ever[i] = {{glm::vec3(std::exp2(float(i % 250) - 125)), glm::vec3(0), glm::vec3(0)}};
+    for (const Triangles& triangles : {Triangles(), random.triangles(1), random.triangles(9),
+                                       random.triangles(400), random.triangles(20000), ever}) {
+        std::vector<TreeItem> items = itemsOf(triangles);
+        Nodes nodes(2 * std::max<size_t>(items.size(), 1) - 1);
+        nodes.resize(lighting::buildTree(items, 4, nodes));
+        const uint32_t count = uint32_t(nodes.size());
+        std::vector<uint8_t> heights(count);
+        std::vector<uint32_t> words(lighting::maxRefitPlanWords(count));
+        const lighting::RefitPlan plan = lighting::writeRefitPlan(nodes, heights, words);
+        EXPECT_LE(plan.words, words.size());
+        EXPECT_EQ(plan.subtreeGroups > 0, count > 0);
+        EXPECT_EQ(plan.hasTop, count > 512);
+        constexpr uint32_t none = UINT32_MAX;
+        std::vector<uint32_t> groupOf(count, none), roundOf(count, none);
+        for (uint32_t group = 0; group < plan.subtreeGroups + plan.hasTop; ++group) {
+            const uint32_t at = words[group], rounds = words[at];
+            uint32_t next = at + 1 + rounds;
+            for (uint32_t round = 0; round < rounds; ++round)
+                for (uint32_t i = 0; i < words[at + 1 + round]; ++i, ++next) {
+                    ASSERT_LT(next, plan.words);
+                    ASSERT_LT(words[next], count);
+                    EXPECT_EQ(groupOf[words[next]], none) << "a node comes twice";
+                    groupOf[words[next]] = group;
+                    roundOf[words[next]] = round;
+                }
+        }
+        const auto isFirst = [&](uint32_t child, uint32_t node) {
+            return groupOf[child] == groupOf[node] ? roundOf[child] < roundOf[node]
+                                                   : groupOf[node] == plan.subtreeGroups;
+        };
+        for (uint32_t node = 0; node < count; ++node) {
+            ASSERT_NE(groupOf[node], none);
+            if (nodes[node].leaf) {
+                EXPECT_EQ(roundOf[node], 0u);
+                EXPECT_LT(groupOf[node], plan.subtreeGroups);
+            } else {
+                EXPECT_TRUE(isFirst(node + 1, node));
+                EXPECT_TRUE(isFirst(nodes[node + 1].skip, node));
+            }
+        }
     }
 }
 

@@ -365,6 +365,11 @@ public:
     {
         return detail::call(cndReplaceOccluderPositions, handle_, mesh, positions, stride);
     }
+    Result<void> replaceOccluderPositionsOnDevice(Span<const CndDevicePositions> positions) noexcept
+    {
+        return detail::call(cndReplaceOccluderPositionsOnDevice, handle_,
+                            uint32_t(positions.size()), positions.data());
+    }
     Result<void> removeOccluderMeshes(Span<const CndOccluderMeshId> ids) noexcept
     {
         return detail::call(cndRemoveOccluderMeshes, handle_, uint32_t(ids.size()), ids.data());

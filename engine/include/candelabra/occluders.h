@@ -17,8 +17,8 @@ typedef uint64_t CndOccluderId;
 // A mesh that casts shadows, in the host's memory. It is copied before the call returns. Its
 // triangles are two-sided and need not be connected or closed. Triangles without an area are
 // allowed and cast no shadow. A mesh takes about 80 bytes of device memory per triangle, and
-// as much plus 24 bytes of host memory. Positions that only the device has, such as those of
-// skinned meshes, cannot be given yet.
+// as much plus 24 bytes of host memory. If its positions are written on the device, such as those
+// of skinned meshes, these are those of a typical pose (CndDevicePositions).
 typedef struct CndOccluderMesh {
     // The first of vertexCount positions, three floats each, in metres in the mesh's own space.
     // Each coordinate is within 1e15. All positions are checked, also those that no triangle uses.
@@ -33,6 +33,24 @@ typedef struct CndOccluderMesh {
     // Otherwise the call fails with CND_ERROR_UNSUPPORTED.
     uint32_t triangleCount;
 } CndOccluderMesh;
+
+// Positions of a mesh that are written on the device, for example by a skinning kernel, and never
+// visit the host. They stand for those of CndOccluderMesh: as many, in the same order and unit.
+//
+// The buffer is borrowed until the mesh gets other positions or is removed, and until the GPU has
+// finished the recordings made before that. Those recordings may read it, and the first one after
+// the call does. On entry to each of them the positions are visible to COMPUTE_SHADER /
+// SHADER_STORAGE_READ, and they must not change until the GPU has finished it: an execution barrier
+// from COMPUTE_SHADER comes before the next pose is written.
+//
+// The host cannot check these positions. A coordinate that is not finite, or not within 1e15,
+// counts as 0.
+typedef struct CndDevicePositions {
+    CndOccluderMeshId mesh;
+    VkBuffer buffer;     // usage STORAGE_BUFFER
+    VkDeviceSize offset; // bytes, a multiple of 4: of the first position, which is three floats
+    uint32_t stride;     // bytes from one position to the next, a multiple of 4, at least 12; 0: 12
+} CndDevicePositions;
 
 // One placement of a mesh. Moving objects are updated.
 typedef struct CndOccluderInstance {
@@ -74,6 +92,20 @@ CND_API CndResult cndAddOccluderMeshes(CndLighting lighting, uint32_t count,
 CND_API CndResult cndReplaceOccluderPositions(CndLighting lighting, CndOccluderMeshId mesh,
                                               const float* positions, uint32_t stride,
                                               CndError* error);
+// Gives meshes positions that are written on the device. No mesh may occur twice. The next
+// recording writes their triangles and fits the boxes around them, and around all instances, on the
+// device. For positions that were written later, call it again, with the same values or others;
+// once as many frames are in flight as ever, that allocates nothing. cndReplaceOccluderPositions
+// takes a mesh back to positions of the host. CND_ERROR_UNSUPPORTED: the positions of a mesh take
+// more than maxStorageBufferRange.
+//
+// Such a mesh proves that lights are hidden (CndLightingStats::wonProofs) only across edges whose
+// two triangles have the same indices there: vertices that merely are in one place may part. Its
+// memory grows by 17 bytes per triangle, on the device and on the host. The first call makes three
+// pipelines.
+CND_API CndResult cndReplaceOccluderPositionsOnDevice(CndLighting lighting, uint32_t count,
+                                                      const CndDevicePositions* positions,
+                                                      CndError* error);
 // Removes the meshes with these ids. No id may occur twice, and no instance may use one of them.
 CND_API CndResult cndRemoveOccluderMeshes(CndLighting lighting, uint32_t count,
                                           const CndOccluderMeshId* ids, CndError* error);

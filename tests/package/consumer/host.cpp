@@ -14,12 +14,14 @@
     std::vector<CndLightId> ids(1);
     const std::vector<uint8_t> weights(1);
     const std::vector<CndOccluderMesh> meshes(1);
+    const std::vector<CndDevicePositions> positions(1);
     const std::vector<CndOccluderInstance> instances(1);
     return lighting.setLights(lights, {0, 0, 0}) && lighting.addLights(lights, ids) &&
            lighting.addLight(lights[0]) && lighting.updateLights({&ids[0], 1}, {&lights[0], 1}) &&
            lighting.removeLights(ids) && lighting.addOccluderMeshes(meshes, ids) &&
            lighting.addOccluderMesh(meshes[0]) &&
            lighting.replaceOccluderPositions(ids[0], nullptr) &&
+           lighting.replaceOccluderPositionsOnDevice(positions) &&
            lighting.addOccluders(instances, ids) && lighting.addOccluder(instances[0]) &&
            lighting.updateOccluders(ids, instances) && lighting.removeOccluders(ids) &&
            lighting.removeOccluderMeshes(ids) && view.record(nullptr, {}) && view.stats(0) &&
