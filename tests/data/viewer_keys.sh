@@ -19,7 +19,7 @@ await() {
     done
     return 1
 }
-"$PROGRAM" view hall --lights 40 --size 240x160 --exposure 4 --samples 1 --verbose --validate \
+"$PROGRAM" view hall --lights 40 --size 240x160 --exposure 4 --samples 1 --shadows off --verbose --validate \
     ${CANDELABRA_TEST_DEVICE:+--device "$CANDELABRA_TEST_DEVICE"} 2>>$log &
 viewer=$!
 window=$(timeout 120 xdotool search --sync --onlyvisible --name '^candelabra$' | head -n 1)

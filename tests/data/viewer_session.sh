@@ -25,7 +25,7 @@ complete() { # text
     done
     fail "the picture was never complete after: $1"
 }
-"$PROGRAM" view hall --lights 40 --size 320x200 --exposure 4 --validate --no-overlay --verbose \
+"$PROGRAM" view hall --lights 40 --size 320x200 --exposure 4 --shadows off --validate --no-overlay --verbose \
     ${CANDELABRA_TEST_DEVICE:+--device "$CANDELABRA_TEST_DEVICE"} &
 viewer=$!
 logged "F2 lists keys" # the scene is there

@@ -2,7 +2,7 @@
 # Shows scenes in `candelabra view` ($PROGRAM) that stand still, and moves in one, in an empty folder that has
 # the scene wide.json (tests/gpu/test_viewer.cpp). `candelabra render` makes the pictures to compare with.
 device=${CANDELABRA_TEST_DEVICE:+--device "$CANDELABRA_TEST_DEVICE"}
-size="--size 200x150"
+size="--size 200x150 --shadows off"
 set -e
 
 "$PROGRAM" render wide.json --aa 16 $size -o wide.png $device

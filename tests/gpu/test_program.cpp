@@ -81,8 +81,9 @@ Png readPng(const std::string& path)
 
 TEST_F(ProgramTest, RenderWritesImagesAndFigures)
 {
-    const Outcome outcome = run("render hall --lights 150 --size 96x54 --frames 3 --moving -q "
-                                "-o a.png -o a.exr -o a.pfm --pick 48,40 --json - --validate");
+    const Outcome outcome =
+        run("render hall --lights 150 --size 96x54 --frames 3 --moving --shadows off -q "
+            "-o a.png -o a.exr -o a.pfm --pick 48,40 --json - --validate");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_EQ(outcome.err, "");
     const auto json = nlohmann::json::parse(outcome.out);
@@ -130,13 +131,11 @@ TEST_F(ProgramTest, CullingAndFrameCountDoNotChangeTheImage)
 TEST_F(ProgramTest, ShadowsTakeLightAway)
 {
     const std::string start = "render rooms --lights 200 --size 64x36 --aa 1 -o ";
-    const Outcome off = run(start + "a.pfm --validate");
+    const Outcome off = run(start + "a.pfm --shadows off --validate");
     ASSERT_EQ(off.exitCode, 0) << off.err;
-    EXPECT_NE(off.err.find("shadows are off; --shadows 64 turns them on"), std::string::npos);
     const Outcome on =
         run(start + "b.pfm --shadows 64 --json b.json --explain --pick 32,25 --validate");
     ASSERT_EQ(on.exitCode, 0) << on.err;
-    EXPECT_EQ(on.err.find("shadows are off"), std::string::npos);
     EXPECT_NE(on.out.find("shadows: a pixel asks for "), std::string::npos) << on.out;
     const auto json = nlohmann::json::parse(text("b.json"));
     EXPECT_EQ(json["settings"]["shadows"], "64");
@@ -166,15 +165,39 @@ TEST_F(ProgramTest, ShadowsTakeLightAway)
     EXPECT_LT(kept, 0.95 * all);
 }
 
+// They are there unless they take long on a CPU.
+TEST_F(ProgramTest, ShadowsAreTheDefaultWhereTheyAreFast)
+{
+    const std::string small = "render rooms --lights 200 --size 64x36 --aa 1 -o ";
+    const Outcome fast = run(small + "a.pfm --json a.json");
+    ASSERT_EQ(fast.exitCode, 0) << fast.err;
+    EXPECT_EQ(fast.err.find("shadows are off"), std::string::npos) << fast.err;
+    EXPECT_EQ(nlohmann::json::parse(text("a.json"))["settings"]["shadows"], "64");
+    ASSERT_EQ(run(small + "b.pfm --shadows 64").exitCode, 0);
+    EXPECT_EQ(app::loadPfm(path("a.pfm")).pixels, app::loadPfm(path("b.pfm")).pixels);
+    if (context().info().type != VK_PHYSICAL_DEVICE_TYPE_CPU)
+        return;
+    const std::string large = "render hall --size 1280x720 --aa 1 --json c.json";
+    const Outcome slow = run(large);
+    ASSERT_EQ(slow.exitCode, 0) << slow.err;
+    EXPECT_NE(slow.err.find("shadows are off, because a picture would take about "),
+              std::string::npos)
+        << slow.err;
+    EXPECT_EQ(nlohmann::json::parse(text("c.json"))["settings"]["shadows"], "off");
+    const Outcome chosen = run(large + " --shadows off");
+    ASSERT_EQ(chosen.exitCode, 0) << chosen.err;
+    EXPECT_EQ(chosen.err.find("shadows are off"), std::string::npos) << chosen.err;
+}
+
 TEST_F(ProgramTest, HeatMapOfShadowsNeedsShadows)
 {
     const std::string start = "render rooms --lights 40 --size 256x144 -o c.png --debug shadow ";
-    const Outcome without = run(start);
+    const Outcome without = run(start + "--shadows off");
     EXPECT_EQ(without.exitCode, 2);
     EXPECT_NE(without.err.find("--debug shadow: there are no shadows; add --shadows 64"),
               std::string::npos)
         << without.err;
-    const Outcome with = run(start + "--shadows 64 --validate");
+    const Outcome with = run(start + "--validate");
     ASSERT_EQ(with.exitCode, 0) << with.err;
     EXPECT_GT(readPng(path("c.png")).distinct, 10); // mixed colours
 }

@@ -43,7 +43,8 @@ int visibility(const ProgramContext& program, const VisibilityArguments& a)
     a.device.requireRoomFor(options.lights.value_or(0));
     const std::string json = benchOutput(a.directory, "--json", a.json, "bench_visibility.json");
     Scene scene = loadScene(a.scene.scene, options);
-    logWarnings(scene, true);
+    logWarnings(scene);
+    warnOfShadows(scene);
     for (const std::string& text : leftOutByReference(scene))
         spdlog::warn("warning: {}: {}", scene.name, text);
     requireSomethingToDraw(scene, a.scene.scene);
@@ -118,7 +119,7 @@ void addBenchVisibility(CLI::App& bench, Run& run)
     command->footer(
         "Pairs are of a pixel and a light whose visibility it asks for. The CPU time per pair is\n"
         "what a frame takes more with shadows, over all threads; only a CPU device draws with it.\n"
-        "The truth is that of candelabra truth --shadows 64. The other rows multiply the truth of\n"
+        "The truth is that of candelabra truth. The other rows multiply the truth of\n"
         "each light without shadows by the share of rays that reach it, in double precision, so\n"
         "their errors are those of the rays alone. Emitters are not drawn.\n\n"
         "Example:\n"

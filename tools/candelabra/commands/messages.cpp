@@ -33,18 +33,21 @@ std::string exposureLimitText(const CndExposureSettings& settings, float ev100)
 
 } // namespace
 
-void logWarnings(const Scene& scene, bool shadows)
+void logWarnings(const Scene& scene)
 {
     constexpr size_t shown = 10; // a broken file can give thousands of warnings
     for (size_t i = 0; i < scene.warnings.size() && i < shown; ++i)
         spdlog::warn("warning: {}", scene.warnings[i]);
     if (scene.warnings.size() > shown)
         spdlog::warn("warning: {} more like these", scene.warnings.size() - shown);
-    if (shadows)
-        for (const std::string& warning : inexactShadows(scene))
-            spdlog::warn("warning: {}", warning);
     for (const std::string& note : scene.notes)
         spdlog::info("{}", note);
+}
+
+void warnOfShadows(const Scene& scene)
+{
+    for (const std::string& warning : inexactShadows(scene))
+        spdlog::warn("warning: {}", warning);
 }
 
 std::string exposureText(const CndExposureSettings& settings, const Scene& scene, bool given,

@@ -11,9 +11,10 @@
 namespace candelabra::app
 {
 
-// Logs the warnings of the scene's loader, at most ten of them, and those about its shadows if it
-// is drawn with shadows.
-void logWarnings(const Scene& scene, bool shadows = false);
+// Logs the warnings of the scene's loader, at most ten of them, and its notes.
+void logWarnings(const Scene& scene);
+// Logs warnings about the shadows of a scene that is drawn with shadows.
+void warnOfShadows(const Scene& scene);
 
 // Says with which exposure a frame was drawn, and what helps if automatic exposure has reached an
 // end of its range. `given` tells whether --exposure has set the EV100.

@@ -25,6 +25,8 @@ namespace
 
 constexpr Choice<bool> onOffChoices[] = {{"on", true}, {"off", false}};
 constexpr PixelSize usualSize{1280, 720};
+constexpr Choice<std::optional<uint32_t>> defaultShadowChoices[] = {
+    {"auto", std::nullopt}, {"off", 0}, {"32", 32}, {"64", 64}};
 
 } // namespace
 
@@ -292,6 +294,13 @@ void FrameArguments::addViewTo(CLI::App& command)
               "draw area lights as visible emitters (default: as the scene says)");
 }
 
+void FrameArguments::addWithShadowsTo(CLI::App& command)
+{
+    choosesShadows = true;
+    shadows = "auto";
+    addTo(command);
+}
+
 void FrameArguments::addTo(CLI::App& command)
 {
     specular = specularName(CND_SPECULAR_CONIC);
@@ -313,9 +322,14 @@ void FrameArguments::addTo(CLI::App& command)
               "point of Karis 2013, and sampled takes random samples");
     addOption(command, "--samples", sampleCount, "N",
               "samples per light and pixel of --specular sampled (1..4096)");
-    addChoice(command, "--shadows", shadows, shadowChoices,
-              "soft shadows of everything opaque, found for this many points of each light; 64 "
-              "takes little longer than 32");
+    const std::string what = "soft shadows of everything opaque, found for this many points of "
+                             "each light; 64 takes little longer than 32";
+    if (choosesShadows)
+        addChoice(command, "--shadows", shadows, defaultShadowChoices,
+                  what + "; auto is 64, but off on a CPU where a picture would take more than 2 s "
+                         "longer, by an estimate that is the same in every run");
+    else
+        addChoice(command, "--shadows", shadows, shadowChoices, what);
     addChoice(command, "--gbuffer", gbuffer, gbufferChoices, "layout of the G-buffer");
     addChoice(command, "--lod", lod, onOffChoices,
               "draw coarser levels of detail of meshes where that moves their surface by at most a "
@@ -353,7 +367,7 @@ void FrameArguments::addDebugTo(CLI::App& command)
         "show in false colours what the lights cost each pixel, instead of the picture; "
         "class shows whether a pixel uses the light list of its tile, that of a depth slice "
         "of its tile, or none and walks the light tree; shadow shows how much a pixel sees of "
-        "its lights, and needs --shadows");
+        "its lights, and needs shadows");
 }
 
 void FrameArguments::addInfluenceTo(CLI::App& command)
@@ -439,12 +453,21 @@ CndInfluence FrameArguments::influenceRule() const
     return {.rule = CND_INFLUENCE_BY_ERROR, .maxError = float(error)};
 }
 
+std::optional<uint32_t> FrameArguments::shadowPoints() const
+{
+    if (!choosesShadows)
+        return choose("--shadows", shadows, shadowChoices);
+    const auto given = choose("--shadows", shadows, defaultShadowChoices);
+    const bool shown = choose("--debug", heatMap, heatMapChoices) == HeatMap::Shadow;
+    return given || !shown ? given : usualShadowPoints;
+}
+
 HeatMap FrameArguments::heatMapMode() const
 {
     const HeatMap out = choose("--debug", heatMap, heatMapChoices);
     if (out != HeatMap::None && cullingMode() != CND_CULLING_CLUSTERED)
         throw UsageError("--debug: shows the cost of lists, which needs --culling clustered");
-    if (out == HeatMap::Shadow && !choose("--shadows", shadows, shadowChoices))
+    if (out == HeatMap::Shadow && shadowPoints() == 0u)
         throw UsageError("--debug shadow: there are no shadows; add --shadows 64");
     return out;
 }
@@ -481,7 +504,7 @@ FrameOptions FrameArguments::frameOptions() const
             .specular = specularMethod(),
             .sampleCount = unsignedOption("--samples", sampleCount, 1, 4096),
             .culling = cullingMode(),
-            .shadows = choose("--shadows", shadows, shadowChoices),
+            .shadows = shadowPoints().value_or(0),
             .influence = influenceRule(),
             .reuse = choose("--reuse", reuse, reuseChoices),
             .heatMap = heatMapMode(),

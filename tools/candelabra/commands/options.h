@@ -73,6 +73,7 @@ struct SceneArguments {
 struct FrameArguments {
     std::string size, camera, fit;
     std::string gbuffer = "full", specular, culling = "clustered", shadows = "off";
+    bool choosesShadows = false; // --shadows may be auto, which is the default
     std::string sampleCount = "64";
     std::string influence = "given", influenceError;
     std::string lightsVisible, reuse = "none", heatMap = "none", lod = "on", cullTriangles = "on";
@@ -84,6 +85,8 @@ struct FrameArguments {
     void addPlaceTo(CLI::App& command);
     // Adds only the options of what is seen: size, camera and visible lights.
     void addViewTo(CLI::App& command);
+    // addTo() for commands that choose whether there are shadows.
+    void addWithShadowsTo(CLI::App& command);
     void addFitTo(CLI::App& command);
     void addCullingTo(CLI::App& command);
     void addReuseTo(CLI::App& command, Reuse fallback);
@@ -100,10 +103,13 @@ struct FrameArguments {
     CndSpecularMethod specularMethod() const;
     CndCulling cullingMode() const;
     CndInfluence influenceRule() const; // its exposure is set by the renderer
-    HeatMap heatMapMode() const;        // throws if culling is not clustered
+    // Empty: they are to be found unless they take too long (generate/shadow_cost.h).
+    std::optional<uint32_t> shadowPoints() const;
+    HeatMap heatMapMode() const; // throws if culling is not clustered
     std::optional<bool> lightsVisibleOverride() const;
     CndExposureSettings exposureSettings() const;
-    FrameOptions frameOptions() const; // all of the above that a frame has, without its camera
+    // All of the above that a frame has, without its camera. No shadows if that is not decided.
+    FrameOptions frameOptions() const;
 };
 
 // Adds an option whose value is kept as text, which --help shows as the default.

@@ -191,7 +191,9 @@ int profile(const ProgramContext& program, const ProfileArguments& a)
     a.scene.warnOfIdleOptions(p.scene.lights);
     a.device.requireRoomFor(p.scene.lights.value_or(0));
     const Scene scene = loadScene(a.scene.scene, p.scene);
-    logWarnings(scene, p.shadows > 0);
+    logWarnings(scene);
+    if (p.shadows)
+        warnOfShadows(scene);
     requireSomethingToDraw(scene, a.scene.scene);
     const Camera camera = selectCamera(scene, a.frame.camera);
     const PixelSize size = a.frame.pixelSize(scene, camera);

@@ -11,6 +11,7 @@
 
 #include "commands/commands.h"
 #include "commands/messages.h"
+#include "generate/shadow_cost.h"
 #include "io/error.h"
 #include "io/numbered_name.h"
 #include "io/progress.h"
@@ -23,6 +24,7 @@
 #include "render/camera_path.h"
 #include "render/provenance.h"
 #include "render/readback.h"
+#include "render/setting_names.h"
 
 namespace candelabra::app
 {
@@ -43,6 +45,7 @@ struct RenderArguments {
 struct RenderPlan {
     SceneOptions scene;
     FrameOptions frame;
+    bool choosesShadows = false; // the device decides whether the frame has shadows
     CndGBufferLayout gbufferLayout;
     FrameCounts counts;
     std::optional<uint32_t> samples; // of each frame; empty: the device decides
@@ -161,6 +164,7 @@ RenderPlan planRender(const RenderArguments& a)
     scene.imageAspect = a.frame.imageAspect();
     return {.scene = scene,
             .frame = frame,
+            .choosesShadows = !a.frame.shadowPoints(),
             .gbufferLayout = a.frame.gbufferLayout(),
             // After three frames both slots have an exposure, and the frame before has cut lights.
             .counts = {.warmUp = byError ? 3u : 1u,
@@ -241,17 +245,30 @@ int reportLastFrame(const ProgramContext& program, const RenderArguments& a, con
     return printValidationMessages(context) ? exitFailed : exitOk;
 }
 
+// Gives the frame shadows unless they take too long on a CPU, and says so then. A picture takes the
+// time of the warm-up frames too.
+void chooseShadows(const Scene& scene, PixelSize size, const VulkanContext& context, RenderPlan& p)
+{
+    double seconds = 0;
+    if (context.info().type == VK_PHYSICAL_DEVICE_TYPE_CPU)
+        seconds = (p.counts.warmUp + p.counts.samples) *
+                  secondsOnCores(shadowCpuSeconds(scene, p.frame.camera, size,
+                                                  p.frame.influence.rule == CND_INFLUENCE_UNCUT));
+    if (seconds <= mostShadowSeconds)
+        p.frame.shadows = usualShadowPoints;
+    else
+        spdlog::info("{}", shadowsLeftOutText(seconds));
+}
+
 // Says what will be rendered. `onCpu`: a picture has one sample because the device is a CPU.
 void printScene(const Scene& scene, PixelSize size, const VulkanContext& context, uint32_t samples,
-                bool shadows, bool onCpu)
+                bool onCpu)
 {
     spdlog::info("{}: {}, {}, {}x{}, {}, on {}", scene.name, counted(scene.lights.size(), "light"),
                  counted(scene.instances.size() + scene.analyticObjects.size(), "object"),
                  size.width, size.height,
                  samples > 1 ? fmt::format("{} samples per pixel", samples) : "1 sample per pixel",
                  context.info().name);
-    if (!shadows)
-        spdlog::info("shadows are off; --shadows 64 turns them on");
     if (onCpu)
         spdlog::info("edges are not smooth: the device is a CPU, where --aa {} takes {} times as "
                      "long; --edge-filter is faster",
@@ -299,7 +316,7 @@ int render(const ProgramContext& program, const RenderArguments& a)
     a.scene.warnOfIdleOptions(p.scene.lights);
     a.device.requireRoomFor(p.scene.lights.value_or(0));
     const Scene scene = loadScene(a.scene.scene, p.scene);
-    logWarnings(scene, p.frame.shadows > 0);
+    logWarnings(scene);
     requireSomethingToDraw(scene, a.scene.scene);
     const Camera first = a.frame.chosenCamera(scene);
     p.frame.camera = first;
@@ -316,7 +333,11 @@ int render(const ProgramContext& program, const RenderArguments& a)
     const VulkanContext context(a.device.contextOptions());
     const bool isGpu = context.info().type != VK_PHYSICAL_DEVICE_TYPE_CPU;
     p.counts.samples = p.samples.value_or(isGpu ? pictureSamples : 1);
-    printScene(scene, size, context, p.counts.samples, p.frame.shadows > 0, !p.samples && !isGpu);
+    printScene(scene, size, context, p.counts.samples, !p.samples && !isGpu);
+    if (p.choosesShadows)
+        chooseShadows(scene, size, context, p);
+    if (p.frame.shadows)
+        warnOfShadows(scene);
     Renderer renderer(context, scene,
                       {.size = size,
                        .gbufferLayout = p.gbufferLayout,
@@ -386,7 +407,7 @@ void addRenderCommand(CLI::App& app, Run& run)
     command->add_flag(
         "--explain", a->explain,
         "list the passes that the last frame ran, and explain why the others had nothing to do");
-    a->frame.addTo(*command);
+    a->frame.addWithShadowsTo(*command);
     a->frame.addFitTo(*command);
     a->frame.addCullingTo(*command);
     a->frame.addInfluenceTo(*command);
@@ -401,8 +422,7 @@ void addRenderCommand(CLI::App& app, Run& run)
                     "  candelabra render hall --pick 640,360\n"
                     "  candelabra render hall --size 320x180 --influence-error 0.5/255 -o cut.png\n"
                     "  candelabra render hall --debug efficiency --explain -o heat.png\n"
-                    "  candelabra render rooms --shadows 64 -o shadows.png\n"
-                    "  candelabra render rooms --shadows 64 --debug shadow -o seen.png\n"
+                    "  candelabra render rooms --debug shadow -o seen.png\n"
                     "  candelabra render hall --aa 64 --size 1920x1080 -o smooth.png\n"
                     "  candelabra render hall --path turn --frames 240 -o f.%04d.png\n"
                     "  ffmpeg -framerate 60 -i f.%04d.png -pix_fmt yuv420p turn.mp4");

@@ -34,7 +34,7 @@ namespace
 
 struct TruthArguments {
     std::string output, tolerance = "1e-4", threads, shard;
-    std::string shadows = "off", shadowSeed = "0", pixels;
+    std::string shadows = "64", shadowSeed = "0", pixels;
     std::vector<std::string> merge;
     std::vector<std::string> notForMerging; // options given that --merge does not use
     SceneArguments scene;
@@ -162,7 +162,9 @@ Scene sceneOf(const TruthArguments& a, bool shadows)
     options.imageAspect = a.frame.imageAspect();
     a.scene.warnOfIdleOptions(options.lights);
     Scene scene = loadScene(a.scene.scene, options);
-    logWarnings(scene, shadows);
+    logWarnings(scene);
+    if (shadows)
+        warnOfShadows(scene);
     for (const std::string& text : leftOutByReference(scene))
         spdlog::warn("warning: {}: {}", scene.name, text);
     lightsAtTime(scene, 0, scene.lights);
@@ -263,7 +265,7 @@ void addTruthCommand(CLI::App& app, Run& run)
         "emitter decide, doubled until the pixel changes by less than 0.1%, up to 65,536.\n\n"
         "Examples:\n"
         "  candelabra truth scene.json -o truth.exr\n"
-        "  candelabra truth rooms --shadows 64 --pixels 500 -o truth.pfm\n"
+        "  candelabra truth rooms --pixels 500 -o truth.pfm\n"
         "  candelabra truth scene.json --shard 3/8 -o part3.truth\n"
         "  candelabra truth --merge part*.truth -o truth.exr");
     command->callback([&run, a, command] {

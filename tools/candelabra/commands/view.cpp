@@ -30,6 +30,7 @@ ViewerOptions optionsOf(const ViewArguments& a)
 {
     ViewerOptions out{.gbufferLayout = a.frame.gbufferLayout(),
                       .frame = a.frame.frameOptions(),
+                      .choosesShadows = !a.frame.shadowPoints(),
                       .lightsVisible = a.frame.lightsVisibleOverride(),
                       .overlay = !a.noOverlay,
                       .frames = unsignedOption("--frames", a.frames, 0, 1'000'000),
@@ -54,6 +55,8 @@ SceneRequest requestOf(const ViewArguments& a, const ViewerOptions& options)
     SceneRequest out{.scene = a.scene.scene,
                      .options = a.scene.options(a.scene.lightCount()),
                      .renderer = rendererOptions(options, options.frame),
+                     .choosesShadows = options.choosesShadows,
+                     .uncut = options.frame.influence.rule == CND_INFLUENCE_UNCUT,
                      .view = [frame = a.frame](const Scene& scene) {
                          const Camera camera = frame.chosenCamera(scene);
                          return SceneView{camera, frame.pixelSize(scene, camera)};
@@ -79,10 +82,11 @@ int view(const ViewArguments& a)
         loader.start(std::move(request));
         const bool interactive = !options.frames;
         if (auto first = waitForFirstScene(screen, loader, interactive)) {
-            logWarnings(first->scene, options.frame.shadows > 0);
+            logWarnings(first->scene);
+            if (first->shadows)
+                warnOfShadows(first->scene);
+            logShadowsLeftOut(*first);
             Viewer viewer(options, screen, loader, std::move(first));
-            if (!options.frame.shadows)
-                spdlog::info("shadows are off; --shadows 64 turns them on");
             spdlog::info("on {}; F2 lists keys and mouse", screen.context.info().name);
             viewer.run();
         }
@@ -110,7 +114,7 @@ void addViewCommand(CLI::App& app, Run& run)
     command->add_flag("--verbose", a->verbose,
                       "report on stderr what each key and click does, where the camera stops, and "
                       "when the picture is complete");
-    a->frame.addTo(*command);
+    a->frame.addWithShadowsTo(*command);
     a->frame.addFitTo(*command);
     a->frame.addCullingTo(*command);
     a->frame.addInfluenceTo(*command);
@@ -127,7 +131,7 @@ void addViewCommand(CLI::App& app, Run& run)
         "everything changes.\n\n"
         "Examples:\n"
         "  candelabra view hall --lights 4000 --moving\n"
-        "  candelabra view model.glb --lights 200 --shadows 32\n"
+        "  candelabra view model.glb --lights 200 --shadows off\n"
         "  xvfb-run -a candelabra view hall --frames 30 --screenshot view.png");
     command->callback([&run, a] { run = [a](const ProgramContext&) { return view(*a); }; });
 }

@@ -14,6 +14,10 @@ namespace
 {
 
 constexpr double far = std::numeric_limits<double>::infinity();
+// Balls cast the shadows of meshes. So many of their triangles face a point, and so many boxes are
+// on the way to one.
+constexpr double ballTriangles = 400;
+constexpr uint64_t ballPath = 30;
 
 // The distance at which the ray enters the box, or infinity if the ray misses the box or enters it
 // beyond `nearest`.
@@ -55,10 +59,51 @@ TriangleHit hitTriangle(const glm::dvec3& origin, const glm::dvec3& direction, c
     return inside ? TriangleHit{t, u, v} : TriangleHit{};
 }
 
+Bounds triangleBounds(const Mesh& mesh, size_t triangle)
+{
+    const glm::dvec3 a(mesh.vertices[mesh.indices[3 * triangle]].position);
+    const glm::dvec3 b(mesh.vertices[mesh.indices[3 * triangle + 1]].position);
+    const glm::dvec3 c(mesh.vertices[mesh.indices[3 * triangle + 2]].position);
+    return {glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))};
+}
+
 bool isInvertible(const glm::dmat4& m)
 {
     const double determinant = glm::determinant(glm::dmat3(m));
     return std::isnormal(determinant);
+}
+
+// Returns how wide the shaft is where it leaves the box, or nothing if it misses the box. The box
+// is widened by that, so some boxes that it misses count.
+std::optional<double> widthAt(const Shaft& shaft, const Bounds& box)
+{
+    const double length2 = glm::dot(shaft.axis, shaft.axis);
+    const glm::dvec3 middle = 0.5 * (box.min + box.max) - shaft.start;
+    const glm::dvec3 half = 0.5 * (box.max - box.min);
+    const double leaves =
+        (glm::dot(middle, shaft.axis) + glm::dot(half, glm::abs(shaft.axis))) / length2;
+    if (!(leaves >= 0))
+        return std::nullopt;
+    const double width = glm::mix(shaft.startRadius, shaft.endRadius, std::min(leaves, 1.0));
+    const bool touches = enterBox({shaft.start, shaft.axis}, 1.0 / shaft.axis,
+                                  {box.min - width, box.max + width}, 1) != far;
+    return touches ? std::optional(width) : std::nullopt;
+}
+
+// Tells whether the plane of a triangle has the start of the shaft and some of its end on two
+// sides. The plane of the surface from which a shaft starts has not.
+bool separates(const Shaft& shaft, const Mesh& mesh, size_t triangle)
+{
+    const auto corner = [&](size_t i) {
+        return glm::dvec3(mesh.vertices[mesh.indices[3 * triangle + i]].position);
+    };
+    const glm::dvec3 normal = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
+    const double before = glm::dot(normal, shaft.start - corner(0));
+    const double after = before + glm::dot(normal, shaft.axis);
+    const double length = glm::length(normal), width = shaft.endRadius * length;
+    if (std::abs(before) <= 1e-4 * length * glm::length(shaft.axis))
+        return false;
+    return before > 0 ? after < width : after > -width;
 }
 
 } // namespace
@@ -132,6 +177,27 @@ void BoxTree::traverse(const Ray& ray, double& nearest, Visit&& visit) const
     }
 }
 
+template <typename Visit>
+uint64_t BoxTree::traverse(const Shaft& shaft, Visit&& visit) const
+{
+    uint64_t tested = 0;
+    std::vector<uint32_t> stack;
+    if (!nodes_.empty())
+        stack.push_back(0);
+    for (; !stack.empty(); ++tested) {
+        const uint32_t index = stack.back();
+        stack.pop_back();
+        const Node& node = nodes_[index];
+        if (!widthAt(shaft, node.box))
+            continue;
+        for (uint32_t i = 0; i < node.count; ++i)
+            visit(order_[node.first + i]);
+        if (node.count == 0)
+            stack.insert(stack.end(), {node.first, index + 1});
+    }
+    return tested;
+}
+
 RayCaster::RayCaster(const Scene& scene) : scene_(scene), meshTrees_(scene.meshes.size())
 {
     std::vector<Bounds> meshBoxes;
@@ -167,18 +233,50 @@ std::optional<RayHit> RayCaster::cast(const Ray& ray)
     return best;
 }
 
+ShaftContents RayCaster::contentsOf(const Shaft& shaft, uint32_t ignoredLayers)
+{
+    ShaftContents out;
+    uint64_t inMeshes = 0;
+    out.boxes = instances_.traverse(shaft, [&](uint32_t item) {
+        const Instance& instance = scene_.instances[instanceIds_[item]];
+        if (scene_.materials[instance.material].alphaMode == AlphaMode::Blend ||
+            (ignoredLayers >> instance.occluderLayer & 1))
+            return;
+        const glm::dmat4& m = objectFromWorld_[item];
+        const glm::dmat3 turn(m);
+        const double scale = std::cbrt(std::abs(glm::determinant(turn)));
+        const Shaft local{glm::dvec3(m * glm::dvec4(shaft.start, 1)), turn * shaft.axis,
+                          scale * shaft.startRadius, scale * shaft.endRadius};
+        const Mesh& mesh = scene_.meshes[instance.mesh];
+        inMeshes += meshTree(instance.mesh).traverse(local, [&](uint32_t triangle) {
+            out.triangles += separates(local, mesh, triangle) &&
+                             widthAt(local, triangleBounds(mesh, triangle)).has_value();
+        });
+    });
+    out.boxes += inMeshes;
+    for (const AnalyticObject& object : scene_.analyticObjects) {
+        const double radius = object.radius;
+        if (object.type != AnalyticObject::Type::Ball ||
+            (ignoredLayers >> object.occluderLayer & 1))
+            continue;
+        if (const auto width = widthAt(shaft, {object.point - radius, object.point + radius})) {
+            const double share = std::min(*width / radius, 1.0);
+            const auto triangles = uint64_t(ballTriangles * share * share);
+            out.triangles += triangles;
+            out.boxes += ballPath + triangles;
+        }
+    }
+    return out;
+}
+
 const BoxTree& RayCaster::meshTree(uint32_t mesh)
 {
     std::optional<BoxTree>& tree = meshTrees_[mesh];
     if (!tree) {
         const Mesh& source = scene_.meshes[mesh];
         std::vector<Bounds> boxes(source.indices.size() / 3);
-        for (size_t t = 0; t < boxes.size(); ++t) {
-            const glm::dvec3 a(source.vertices[source.indices[3 * t]].position);
-            const glm::dvec3 b(source.vertices[source.indices[3 * t + 1]].position);
-            const glm::dvec3 c(source.vertices[source.indices[3 * t + 2]].position);
-            boxes[t] = {glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))};
-        }
+        for (size_t t = 0; t < boxes.size(); ++t)
+            boxes[t] = triangleBounds(source, t);
         tree = BoxTree(boxes);
     }
     return *tree;

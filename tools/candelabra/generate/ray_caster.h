@@ -30,6 +30,18 @@ struct RayHit {
     bool analytic = false;
 };
 
+// Everything between two balls: from `start` to `start + axis`.
+struct Shaft {
+    glm::dvec3 start{0}, axis{0, 0, -1};
+    double startRadius = 0, endRadius = 0;
+};
+
+// What a search for the triangles in a shaft tests, about.
+struct ShaftContents {
+    uint64_t boxes = 0;     // of trees
+    uint64_t triangles = 0; // whose boxes the shaft touches
+};
+
 // A binary tree of boxes, which may hold anything.
 class BoxTree
 {
@@ -41,6 +53,10 @@ public:
     // which `visit` may lower.
     template <typename Visit>
     void traverse(const Ray& ray, double& nearest, Visit&& visit) const;
+    // Calls visit(item) for every box that the shaft touches, and for some others. Returns how many
+    // boxes it has tested.
+    template <typename Visit>
+    uint64_t traverse(const Shaft& shaft, Visit&& visit) const;
 
 private:
     struct Node {
@@ -64,6 +80,10 @@ public:
 
     // Returns the nearest surface that the ray meets, which may be a back face.
     std::optional<RayHit> cast(const Ray& ray);
+
+    // Counts what casts shadows in a shaft. Blended surfaces and those of ignored occluder layers
+    // (1 << layer) do not. A ball counts as many triangles.
+    ShaftContents contentsOf(const Shaft& shaft, uint32_t ignoredLayers);
 
 private:
     void hitInstance(uint32_t instance, const Ray& ray, RayHit& best);

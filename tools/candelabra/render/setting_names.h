@@ -24,6 +24,7 @@ inline constexpr Choice<CndCulling> cullingChoices[] = {{"clustered", CND_CULLIN
                                                         {"brute", CND_CULLING_BRUTE}};
 // The points of each light for which shadows are found.
 inline constexpr Choice<uint32_t> shadowChoices[] = {{"off", 0}, {"32", 32}, {"64", 64}};
+inline constexpr uint32_t usualShadowPoints = 64; // without a choice of the user
 // CND_INFLUENCE_BY_ERROR is chosen by an option of its own, which holds the error.
 inline constexpr Choice<CndInfluenceRule> influenceChoices[] = {{"given", CND_INFLUENCE_GIVEN},
                                                                 {"uncut", CND_INFLUENCE_UNCUT}};

@@ -5,12 +5,15 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include "generate/generators.h"
+#include "generate/shadow_cost.h"
 #include "io/table.h"
 #include "load/load.h"
 #include "render/check.h"
 #include "render/pipeline_watch.h"
+#include "render/setting_names.h"
 
 namespace candelabra::app
 {
@@ -40,12 +43,25 @@ std::unique_ptr<LoadedScene> load(const VulkanContext& context, const SceneReque
     out->view = request.view(out->scene);
     RendererOptions options = request.renderer;
     options.size = out->view.size;
+    if (request.choosesShadows) {
+        if (context.info().type == VK_PHYSICAL_DEVICE_TYPE_CPU)
+            out->shadowSeconds = secondsOnCores(
+                shadowCpuSeconds(out->scene, out->view.camera, out->view.size, request.uncut));
+        options.shadows = out->shadowSeconds <= mostShadowSeconds ? usualShadowPoints : 0;
+    }
+    out->shadows = options.shadows;
     out->renderer = makeRenderer(context, out->scene, options, uploadAt, job);
     beginStep(job, "Drawing the first picture ...", pictureAt);
     return out;
 }
 
 } // namespace
+
+void logShadowsLeftOut(const LoadedScene& loaded)
+{
+    if (loaded.request.choosesShadows && !loaded.shadows)
+        spdlog::info("{}", shadowsLeftOutText(loaded.shadowSeconds));
+}
 
 void compileShaders(Job& job, double from, const std::function<void()>& make)
 {

@@ -32,6 +32,10 @@ struct SceneRequest {
     std::string scene; // as loadScene takes it
     SceneOptions options;
     RendererOptions renderer; // its size is that of `view`
+    // The scene has shadows unless they take too long on a CPU (generate/shadow_cost.h), whatever
+    // `renderer` says.
+    bool choosesShadows = false;
+    bool uncut = false; // the lights reach everywhere
     // Called on the thread that loads. It may throw UsageError.
     std::function<SceneView(const Scene&)> view;
     Kept kept = Kept::Nothing;
@@ -42,8 +46,13 @@ struct LoadedScene {
     SceneView view;
     Scene scene;
     SceneSource source;                 // where the scene's surfaces come from
+    uint32_t shadows = 0;               // RendererOptions::shadows
+    double shadowSeconds = 0;           // s; what a frame would take longer with shadows
     std::unique_ptr<Renderer> renderer; // refers to `scene`
 };
+
+// Says why the scene has no shadows, if that was not the user's choice.
+void logShadowsLeftOut(const LoadedScene& loaded);
 
 // Both show their progress in `job`, from the part `from` (0..1) of its bar to its end.
 //

@@ -118,6 +118,8 @@ void Viewer::open(const std::string& scene, const SceneOptions& options, Kept ke
     loader_.start({.scene = scene,
                    .options = options,
                    .renderer = rendererOptions(options_, panel_.frame),
+                   .choosesShadows = options_.choosesShadows,
+                   .uncut = options_.frame.influence.rule == CND_INFLUENCE_UNCUT,
                    .view =
                        [size = swapchain_.size()](const Scene& loaded) {
                            return SceneView{selectCamera(loaded, ""), size};
@@ -148,6 +150,7 @@ void Viewer::takeLoaded()
     for (const std::string& note : loaded->scene.notes)
         spdlog::info("{}", note);
     figures_.note.clear();
+    logShadowsLeftOut(*loaded);
     show(std::move(loaded));
     spdlog::info("{}: {}", scene_.name, counted(scene_.lights.size(), "light"));
 }
@@ -164,6 +167,9 @@ void Viewer::show(std::unique_ptr<LoadedScene> loaded)
     }
     scene_ = std::move(loaded->scene);
     renderer_ = std::move(loaded->renderer);
+    options_.frame.shadows = panel_.frame.shadows = loaded->shadows;
+    if (loadingShading_.heatMap == HeatMap::Shadow && !loaded->shadows)
+        loadingShading_.heatMap = panel_.frame.heatMap = HeatMap::None; // there are none to show
     renderer_->sceneMoved(scene_);
     source_ = std::move(loaded->source);
     sceneName_ = loaded->request.scene;

@@ -27,6 +27,7 @@ namespace candelabra::app
 struct ViewerOptions {
     CndGBufferLayout gbufferLayout = CND_GBUFFER_FULL;
     FrameOptions frame;
+    bool choosesShadows = false;       // as SceneRequest has it
     std::optional<bool> lightsVisible; // empty: as the scene says
     bool overlay = true;               // the panel is visible at first
     // Number of frames after which the viewer stops. Their scene times are 1/60 s apart, whatever

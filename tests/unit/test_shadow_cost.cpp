@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tests the estimate of what shadows take on a CPU.
+#include <gtest/gtest.h>
+
+#include "generate/generators.h"
+#include "generate/shadow_cost.h"
+
+using namespace candelabra::app;
+
+namespace
+{
+
+double cost(const Scene& scene, PixelSize size, bool uncut = false)
+{
+    return shadowCpuSeconds(scene, scene.cameras[0], size, uncut);
+}
+
+} // namespace
+
+// The times were measured with llvmpipe (DECISIONS 83).
+TEST(ShadowCost, IsWithinTwoOrThreeTimesOfWhatWasMeasured)
+{
+    const struct {
+        const char* scene;
+        SceneOptions options;
+        PixelSize size;
+        double measured;
+    } frames[] = {{"rooms", {.lights = 4000}, {640, 360}, 0.49},
+                  {"rooms", {.lights = 1500, .overlaps = 17.0}, {1280, 720}, 1.75},
+                  {"field", {.lights = 4000}, {640, 360}, 2.5},
+                  {"fence", {.lights = 4000}, {640, 360}, 3.6},
+                  {"showcase", {}, {640, 360}, 28.8},
+                  {"hall", {.lights = 4000}, {640, 360}, 42.6}};
+    for (const auto& f : frames) {
+        const double estimate = cost(generateScene(f.scene, f.options), f.size);
+        EXPECT_GT(estimate, f.measured / 2.5) << f.scene;
+        EXPECT_LT(estimate, f.measured * 2.5) << f.scene;
+    }
+}
+
+TEST(ShadowCost, FollowsLightsAndPixels)
+{
+    Scene scene = generateScene("rooms", {.lights = 100});
+    const PixelSize size{320, 180};
+    const double some = cost(scene, size);
+    EXPECT_EQ(some, cost(scene, size));
+    EXPECT_GT(some, 0);
+    EXPECT_GT(cost(scene, {640, 360}), 1.5 * some);
+    EXPECT_GT(cost(scene, size, true), some);
+    for (CndLight& light : scene.lights)
+        light.unshadowed = 1;
+    EXPECT_EQ(cost(scene, size), 0);
+    scene.lights.clear();
+    EXPECT_EQ(cost(scene, size), 0);
+    EXPECT_EQ(cost(Scene{.cameras = {Camera{}}}, size), 0);
+}
+
+TEST(ShadowCost, IsSaidWithTheOption)
+{
+    EXPECT_EQ(shadowsLeftOutText(12.4), "shadows are off, because a picture would take about 12 s "
+                                        "longer on this CPU; --shadows 64 turns them on");
+    EXPECT_NE(shadowsLeftOutText(2.04).find("about 2.0 s"), std::string::npos);
+}
