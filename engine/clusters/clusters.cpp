@@ -319,6 +319,13 @@ uint32_t Clusters::blockPages() const
     return pageCount() / 2;
 }
 
+VkDeviceSize Clusters::missingBytes(const gpu::LightingCounters& counters) const
+{
+    const VkDeviceSize pages =
+        counters.missingBlockPages ? 2ull * counters.missingBlockPages : counters.missingPages;
+    return pages * pageBytes;
+}
+
 gpu::ClusterListsParams Clusters::listParams(uint32_t type, const gpu::TreeShape& tree,
                                              glm::uvec2 tileCount) const noexcept
 {

@@ -121,8 +121,9 @@ public:
     // Returns how many tiles have been split if `asked` tiles were deep: there may be room for
     // fewer.
     uint32_t splitTileCount(uint32_t asked) const { return std::min(asked, splitCapacity_); }
-    // Tells whether there were too few pages for the lists, of which `asked` were asked for.
-    bool ranOut(uint32_t asked) const { return asked >= pageCount(); }
+    // Returns how many bytes of Sizes::listBudget were missing, at most. While lists of blocks lack
+    // pages, those of tiles are longer than they will be.
+    VkDeviceSize missingBytes(const gpu::LightingCounters& counters) const;
     // WorkLists by tile class: tiles with a surface.
     const gpu::Buffer& surfaces() const { return surfaces_; }
 

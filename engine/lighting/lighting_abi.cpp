@@ -275,6 +275,6 @@ CndResult cndGetLightingStats(CndLightingView view, uint32_t frameSlot, CndLight
         return CND_ERROR_INVALID_ARGUMENT;
     const CndResult result = view->impl.stats(frameSlot, *stats);
     if (result == CND_SUCCESS)
-        view->impl.reportProblems(frameSlot, *stats);
+        view->impl.reportProblems(*stats);
     return result;
 }

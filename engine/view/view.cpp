@@ -188,6 +188,7 @@ CndResult View::stats(uint32_t slot, CndLightingStats& out) const noexcept
     out.listEntries = c.listEntries;
     out.maxListLength = c.maxListLength;
     out.unlistedClusters = c.unlistedClusters;
+    out.missingListBytes = clusters_.missingBytes(c);
     out.cutBelow = c.cutBelow;
     out.listedPairs = join(c.listedPairs);
     out.evaluatedPairs = join(c.evaluatedPairs);
@@ -213,43 +214,43 @@ CndResult View::stats(uint32_t slot, CndLightingStats& out) const noexcept
 
 // Names what the lists of clusters found too little of. What shadows need is known if no other list
 // is missing.
-void View::reportUnlisted(uint32_t slot, const CndLightingStats& stats) const noexcept
+void View::reportMissing(const CndLightingStats& stats) const noexcept
 {
     const gpu::Device& device = module_.device;
-    const auto* const counted = slots_.read<gpu::LightingCounters>(slot);
-    const bool pagesRanOut = counted && clusters_.ranOut(counted->pageCursor);
-    const auto tell = [&](const char* budget, VkDeviceSize bytes, const char* enough) {
+    const auto tell = [&](const char* member, VkDeviceSize budget, VkDeviceSize enough) {
+        char needed[80] = "";
+        if (enough)
+            std::snprintf(
+                needed, sizeof needed, ", and %llu would do%s", (unsigned long long)enough,
+                enough > device.limits.maxStorageBufferRange ? ", more than maxStorageBufferRange"
+                                                             : "");
+        char clusters[40] = "blocks of clusters";
+        if (stats.unlistedClusters)
+            std::snprintf(clusters, sizeof clusters, "%u clusters", stats.unlistedClusters);
         device.say(CND_MESSAGE_WARNING,
-                   "cndGetLightingStats: %u clusters have no list, because "
-                   "CndLightingViewDesc::%s, %llu bytes, was used up%s: they are shaded by walking "
-                   "the light tree, slower",
-                   stats.unlistedClusters, budget, (unsigned long long)bytes, enough);
+                   "cndGetLightingStats: %s have no list, because CndLightingViewDesc::%s, %llu "
+                   "bytes, was used up%s: they walk the light tree, slower",
+                   clusters, member, (unsigned long long)budget, needed);
     };
-    if (pagesRanOut && !std::exchange(told_.pages, true))
-        tell("listBudget", desc_.listBudget, "");
+    if (stats.missingListBytes && !std::exchange(told_.pages, true))
+        tell("listBudget", desc_.listBudget, desc_.listBudget + stats.missingListBytes);
     if (stats.missingShadowSlots && !std::exchange(told_.slots, true)) {
         const VkDeviceSize needed = (VkDeviceSize(stats.shadowSlots) + stats.missingShadowSlots) *
                                     gpu::SLOT_WORDS * sizeof(uint32_t);
-        char enough[80] = "";
-        if (!pagesRanOut)
-            std::snprintf(
-                enough, sizeof enough, ", and %llu would do%s", (unsigned long long)needed,
-                needed > device.limits.maxStorageBufferRange ? ", more than maxStorageBufferRange"
-                                                             : "");
-        tell("shadowBudget", desc_.shadowBudget, enough);
+        tell("shadowBudget", desc_.shadowBudget, stats.missingListBytes ? 0 : needed);
     }
-    if (!pagesRanOut && !stats.missingShadowSlots && !std::exchange(told_.length, true))
+    if (!stats.missingListBytes && !stats.missingShadowSlots && !std::exchange(told_.length, true))
         device.say(CND_MESSAGE_WARNING,
                    "cndGetLightingStats: %u clusters have no list, because it would be too long "
-                   "for the device: they are shaded by walking the light tree, slower",
+                   "for the device: they walk the light tree, slower",
                    stats.unlistedClusters);
 }
 
-void View::reportProblems(uint32_t slot, const CndLightingStats& stats) const noexcept
+void View::reportProblems(const CndLightingStats& stats) const noexcept
 {
     const gpu::Device& device = module_.device;
-    if (stats.unlistedClusters)
-        reportUnlisted(slot, stats);
+    if (stats.unlistedClusters || stats.missingListBytes)
+        reportMissing(stats);
     if (stats.unfinishedPairs && !std::exchange(told_.unfinished, true)) {
         device.say(CND_MESSAGE_WARNING,
                    "cndGetLightingStats: %u pairs of pixel and light have less shadow than they "

@@ -30,7 +30,7 @@ public:
     CndResult stats(uint32_t slot, CndLightingStats& stats) const noexcept;
     // Sends the host a message, once, for each statistic of a slot that shows a problem. `stats`:
     // what stats() has just returned.
-    void reportProblems(uint32_t slot, const CndLightingStats& stats) const noexcept;
+    void reportProblems(const CndLightingStats& stats) const noexcept;
     VkDescriptorSet forwardSet(uint32_t slot) const; // throws gpu::Failure if there is none
     // Makes room for a set of lights before the module takes it. Throws gpu::Failure if that fails.
     void makeRoom(uint32_t lightCapacity, LightTypeCounts types);
@@ -58,7 +58,7 @@ private:
 
     gpu::ShadowCounters shadowCounters(const gpu::LightingCounters* counted) const noexcept;
     void makeRoomForShapes(VkDeviceSize lights, VkDeviceSize polygons);
-    void reportUnlisted(uint32_t slot, const CndLightingStats& stats) const noexcept;
+    void reportMissing(const CndLightingStats& stats) const noexcept;
 
     // record.cpp
     KeptWork keptWork(const FramePlan& plan);

@@ -110,7 +110,8 @@ const float ABOVE_FROM = 2.0f;
 
 // Counters of one frame, cleared before it and read back after it.
 struct LightingCounters {
-    uint pageCursor; // pages in use; page 0 is never used
+    uint pageCursor;                      // pages in use; page 0 is never used
+    uint missingPages, missingBlockPages; // that lists of tiles and of blocks lacked, at most
     uint listEntries;
     uint maxListLength;
     uint unlistedClusters;
@@ -124,7 +125,7 @@ struct LightingCounters {
     uvec2 insidePairs;
     uvec2 contributingPairs;
 };
-GPU_SIZE(LightingCounters, 72)
+GPU_SIZE(LightingCounters, 80)
 
 // --- prepare_lights: transforms lights to view space, one lane per light
 const uint PREPARE_LIGHTS_GROUP = 64u;

@@ -37,7 +37,7 @@ TEST_F(LightingTest, ListsWithoutRoomAndRejectedLightsAreToldOnce)
     draw();
     log.expect(CND_MESSAGE_WARNING,
                "clusters have no list, because CndLightingViewDesc::listBudget, "
-               "1 bytes, was used up: they are");
+               "1 bytes, was used up, and ");
     draw();
     log.expectNone();
     for (int i = 0; i < 2; ++i) { // once for each set
@@ -84,18 +84,30 @@ TEST_F(LightingTest, TheBudgetThatRanOutIsTold)
     const VkDeviceSize enough = (short_.shadowSlots + short_.missingShadowSlots) * slot;
     log.expect(CND_MESSAGE_WARNING,
                "no list, because CndLightingViewDesc::shadowBudget, 4096 bytes, was used up, and " +
-                   std::to_string(enough) + " would do: they are");
+                   std::to_string(enough) + " would do: they walk");
     const CndLightingStats whole = statsWith(0, enough);
     log.expectNone();
     EXPECT_EQ(whole.shadowSlots * slot, enough);
+    EXPECT_EQ(whole.missingListBytes, 0u);
     // Lists that were not made would take more slots.
-    const CndLightingStats both = statsWith(6144, slot);
+    VkDeviceSize lists = 6144;
+    CndLightingStats both = statsWith(lists, slot);
     EXPECT_LT(both.shadowSlots + both.missingShadowSlots, whole.shadowSlots);
     ASSERT_EQ(log.messages.size(), 2u);
-    EXPECT_NE(log.messages[0].sentence.find("listBudget, 6144 bytes, was used up: "),
-              std::string::npos);
+    EXPECT_NE(log.messages[0].sentence.find("listBudget, 6144 bytes, was used up, and " +
+                                            std::to_string(lists + both.missingListBytes) +
+                                            " would do: "),
+              std::string::npos)
+        << log.messages[0].sentence;
     EXPECT_NE(log.messages[1].sentence.find("shadowBudget, 256 bytes, was used up: "),
               std::string::npos);
+    // Lists of blocks come first, then those of tiles.
+    for (int tries = 0; tries < 2 && both.missingListBytes; ++tries) {
+        lists += both.missingListBytes;
+        both = statsWith(lists, slot);
+    }
+    EXPECT_EQ(both.missingListBytes, 0u);
+    EXPECT_EQ(both.shadowSlots + both.missingShadowSlots, whole.shadowSlots);
 }
 
 } // namespace candelabra::test

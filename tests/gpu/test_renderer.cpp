@@ -92,6 +92,42 @@ TEST_F(RendererTest, ClusteredIsBruteForceAtOddSizes)
     }
 }
 
+// A frame that lacks room for lists or shadows makes the next one have more.
+TEST_F(RendererTest, FramesGetTheRoomThatTheyLack)
+{
+    const Scene scene = generateScene("rooms", {.lights = 400});
+    FrameOptions frame = frameOf(scene);
+    frame.shadows = 32;
+    RendererOptions options = optionsOf({96, 54});
+    options.shadows = 32;
+    Renderer roomy(context(), scene, options);
+    const Image expected = radiance(roomy, frame);
+    EXPECT_TRUE(roomy.fits(0));
+    options.listBudget = 4096;
+    options.shadowBudget = 4096;
+    Renderer grows(context(), scene, options);
+    const Image first = radiance(grows, frame);
+    EXPECT_GT(grows.lightingStats(0).unlistedClusters, 0u);
+    int frames = 1;
+    Image last = first;
+    while (frames < 5 && !grows.fits(0)) {
+        last = radiance(grows, frame);
+        ++frames;
+    }
+    EXPECT_GT(frames, 1);
+    EXPECT_LT(frames, 5);
+    const CndLightingStats fitting = grows.lightingStats(0), wanted = roomy.lightingStats(0);
+    EXPECT_EQ(fitting.missingListBytes, 0u);
+    EXPECT_EQ(fitting.missingShadowSlots, 0u);
+    EXPECT_EQ(fitting.unlistedClusters, 0u);
+    EXPECT_EQ(fitting.shadowSlots, wanted.shadowSlots);
+    EXPECT_EQ(fitting.wonProofs, wanted.wonProofs);
+    EXPECT_EQ(firstDifference(last, expected), -1);
+    const float largest = *std::max_element(expected.pixels.begin(), expected.pixels.end());
+    for (size_t i = 0; i < first.pixels.size(); ++i)
+        ASSERT_NEAR(first.pixels[i], expected.pixels[i], 1e-5f * largest) << i;
+}
+
 // The comparison itself must be able to fail.
 TEST_F(RendererTest, BruteForceCheckNoticesOneWrongPixel)
 {

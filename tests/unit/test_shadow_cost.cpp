@@ -17,7 +17,7 @@ double cost(const Scene& scene, PixelSize size, bool uncut = false)
 
 } // namespace
 
-// The times were measured with llvmpipe (DECISIONS 83).
+// The times were measured with llvmpipe (DECISIONS 86).
 TEST(ShadowCost, IsWithinTwoOrThreeTimesOfWhatWasMeasured)
 {
     const struct {

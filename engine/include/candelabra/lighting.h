@@ -349,6 +349,12 @@ typedef struct CndLightingStats {
     // shadow budget, or has more lights than a loop of the device may take, as a message says.
     // Their pixels walk the light tree instead.
     uint32_t unlistedClusters;
+    // How many more bytes of CndLightingViewDesc::listBudget would do; 0: nothing is missing. First
+    // come the lists of blocks of 4x4 tiles, from which those of clusters are made: while these are
+    // missing, only they count, so a view with the larger budget may miss some bytes again. Then
+    // unlistedClusters may be 0, but lists are made more slowly, and with shadows there are fewer
+    // wonProofs.
+    uint64_t missingListBytes;
     // With CND_INFLUENCE_BY_ERROR: illuminance (lx) at which lights are cut; 0: no light is cut.
     float cutBelow;
     // With countPairs, the next four members count (pixel, light) pairs; otherwise they are 0. A
@@ -368,7 +374,8 @@ typedef struct CndLightingStats {
     // Each pair of a cluster and a light takes a slot, 256 bytes of
     // CndLightingViewDesc::shadowBudget. shadowSlots: how many were taken. missingShadowSlots: how
     // many more pairs found none; their clusters count in unlistedClusters. A budget for the sum of
-    // both is enough, unless lists exceed listBudget. Brute force and distant lights do not count.
+    // both is enough, unless missingListBytes is not 0. Brute force and distant lights do not
+    // count.
     uint32_t shadowSlots, missingShadowSlots;
     // How this frame filled its slots; 0 if it reuses them (surfacesUnchanged). litSlots: no
     // occluder is between the cluster and the light. listedSlots: pixels test a list of the

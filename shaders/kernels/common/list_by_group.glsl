@@ -124,7 +124,7 @@ bool listOfGroup(inout ListWriter list, ClusterBounds bounds, uint parent, bool 
         complete = complete && searchTree(list, bounds, isBlock, steps);
     }
     return !complete || list.found > params.longest ||
-           (list.full && steps >= params.maxUnlistedSteps);
+           (!isBlock && list.full && steps >= params.maxUnlistedSteps);
 }
 
 #endif

@@ -29,11 +29,10 @@ uint reservePage()
     return next < params.pageCount ? next : NO_PAGE;
 }
 
-// Tells whether the list of a block is of no use to the clusters in the block, because it cannot be
-// written or is too long.
+// Tells whether the list of a block is of no use to the clusters in the block, because it is too long.
 bool isUseless(ListWriter list)
 {
-    return list.full || list.found > params.longest;
+    return list.found > params.longest;
 }
 
 uint pageHeader(uint count, uint next)
@@ -74,10 +73,24 @@ void appendTile(uint tile, ListWriter list, bool tooLong, uint height)
     atomicMax(counters.maxListLength, list.found);
 }
 
+// Counts the pages of a list that found too few. Pages may lack their last lights
+// (kernels/cpu/cluster_lists.comp).
+void countMissing(ListWriter list)
+{
+    const uint least = PAGE_LIGHTS - TREE_WIDTH + 1u;
+    const uint pages = (list.found + least - 1u) / least;
+    if (params.which == LISTS_OF_BLOCKS)
+        atomicAdd(counters.missingBlockPages, pages);
+    else
+        atomicAdd(counters.missingPages, pages);
+}
+
 // Completes the list of a cluster, which belongs to `tile` unless it is a block's.
 void completeList(uint at, uint tile, ListWriter list, bool tooLong, uint height)
 {
     lists[at] = endList(list, tooLong);
+    if (list.full && list.found <= params.longest)
+        countMissing(list);
     if (params.which != LISTS_OF_BLOCKS)
         appendTile(tile, list, tooLong, height);
 }

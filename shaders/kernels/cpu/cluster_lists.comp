@@ -32,7 +32,7 @@ void makeRoom(inout ListWriter list)
 struct LaneList {
     ListWriter list;
     ClusterBounds bounds; // of its cluster
-    bool isBlock;         // the list is useless without a page or if it is too long, so the loops end
+    bool isBlock;         // the list is useless if it is too long, so the loops end
     uint height;          // height of the list's tile by the lights so far (shared/lighting_data.h)
     uint steps;           // through the parent's list or the tree
     // Lights that have been tested, and that the loops should have tested, because devices may end
@@ -131,7 +131,7 @@ bool makeList(inout LaneList l, uint parent)
         l.steps = l.list.found = 0u;
     cut = searchTree(l, byParent && !measure) || cut;
     return cut || l.list.found > params.longest ||
-           (l.list.full && l.steps >= params.maxUnlistedSteps);
+           (!l.isBlock && l.list.full && l.steps >= params.maxUnlistedSteps);
 }
 
 // Returns the list that a lane makes. Consecutive lists of blocks and of split tiles are

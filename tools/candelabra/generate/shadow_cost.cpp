@@ -22,7 +22,7 @@ constexpr uint32_t estimateRows = 12;
 constexpr double mostPairsTested = 2e7;
 constexpr size_t lightsPerPoint = 2;
 
-// What llvmpipe takes for a pair of a pixel and a light (DECISIONS 83), in seconds of CPU time: if
+// What llvmpipe takes for a pair of a pixel and a light (DECISIONS 86), in seconds of CPU time: if
 // the light is hidden, if nothing is between it and the tile of the pixel, if a few triangles may
 // be there, and otherwise, for each box that is tested too.
 constexpr double hiddenPair = 0.05e-6, litPair = 0.1e-6, listedPair = 0.4e-6, walkedPair = 0.4e-6,

@@ -35,6 +35,18 @@ gpu::Image createDisplay(const gpu::Device& device, PixelSize size)
                             VK_IMAGE_ASPECT_COLOR_BIT);
 }
 
+constexpr VkDeviceSize slotBytes = 256; // of CndLightingViewDesc::shadowBudget
+
+// Returns the largest budget of a view: a buffer that the device allows, and an eighth of its
+// largest memory.
+VkDeviceSize largestBudget(const gpu::Device& device)
+{
+    VkDeviceSize heap = 0;
+    for (uint32_t i = 0; i < device.memory.memoryHeapCount; ++i)
+        heap = std::max(heap, device.memory.memoryHeaps[i].size);
+    return std::min<VkDeviceSize>(device.limits.maxStorageBufferRange, heap / 8);
+}
+
 template <typename Stats>
 Stats finishedStats(Result<std::optional<Stats>> result)
 {
@@ -196,11 +208,13 @@ struct Renderer::State {
     gbuffer::GBuffer gbuffer;
     gbuffer::Targets targets;
     gpu::Image display;
-    Lighting lighting; // outlives its view
+    Lighting lighting; // outlives its views
     // The cases that have pipelines: a mask of CndShadingBits by method, and a mask of light types.
     std::array<std::atomic<uint32_t>, CND_SPECULAR_METHOD_COUNT> shading{};
     std::atomic<uint32_t> lightTypes{0};
-    LightingView view;
+    std::shared_ptr<LightingView> view;
+    std::vector<std::shared_ptr<LightingView>> slotViews; // which recorded the slot's last frame
+    CndLightingViewDesc room{};                           // of `view`
     Exposure exposure;
     Environment environment; // empty: the scene has none
     std::vector<CndLight> lights;
@@ -240,6 +254,7 @@ struct Renderer::State {
     void setLights(double time);
     void moveLights(double time);
     void createSized();
+    bool fitRoom(uint32_t slot);
     LitImageKey litImageKey(uint32_t slot, const FrameOptions& frame) const;
     CndInfluence influenceOf(uint32_t slot, const FrameOptions& frame) const;
     CndExposureSettings exposureOf(const FrameOptions& frame) const;
@@ -295,18 +310,55 @@ void Renderer::State::createSized()
     const auto [width, height] = options.size;
     // The old images are destroyed first, so that old and new ones never take memory at the same
     // time.
-    view = LightingView();
+    view.reset();
+    slotViews.assign(options.framesInFlight, nullptr);
     targets = {};
     display = {};
     targets = gbuffer::createTargets(device, options.gbufferLayout, width, height);
     display = createDisplay(device, options.size);
-    // 64 MiB, the default of the library, are 32 bytes for each of 1920x1080 pixels. Larger images
-    // have more lists, and clusters without room for one take much longer.
+    // The defaults of the library. 64 MiB are 32 bytes for each of 1920x1080 pixels, and larger
+    // images have more lists. fitRoom() finds what more lights need.
+    const VkDeviceSize most = device.limits.maxStorageBufferRange;
     const VkDeviceSize lists = std::max<VkDeviceSize>(64 << 20, 32ull * width * height);
-    view = valueOrThrow(lighting.createView(
-        {.maxWidth = width,
-         .maxHeight = height,
-         .listBudget = std::min<VkDeviceSize>(lists, device.limits.maxStorageBufferRange)}));
+    room = {.maxWidth = width,
+            .maxHeight = height,
+            .listBudget = std::min(options.listBudget ? options.listBudget : lists, most),
+            .shadowBudget = std::min<VkDeviceSize>(
+                options.shadowBudget ? options.shadowBudget : 128 << 20, most)};
+    view = std::make_shared<LightingView>(valueOrThrow(lighting.createView(room)));
+}
+
+// If the finished frame of the slot lacked room, replaces the view by one that has it, and returns
+// false. The old view stays for as long as a slot has a frame of it. A frame in which lists are
+// missing does not tell how many slots shadows need, so the next one may lack some.
+bool Renderer::State::fitRoom(uint32_t slot)
+{
+    if (slotViews[slot] != view || !litSlots[slot])
+        return true;
+    auto known = view->stats(slot);
+    if (!known || !known.value())
+        return true;
+    const CndLightingStats& stats = *known.value();
+    const VkDeviceSize most = largestBudget(context.device());
+    const auto grows = [&](VkDeviceSize& budget, VkDeviceSize wanted) {
+        const bool more = std::min(wanted, most) > budget;
+        budget = std::max(budget, std::min(wanted, most));
+        return more;
+    };
+    CndLightingViewDesc wanted = room;
+    if (!(stats.missingListBytes &&
+          grows(wanted.listBudget, room.listBudget + stats.missingListBytes)) &&
+        !(stats.missingShadowSlots &&
+          grows(wanted.shadowBudget,
+                (VkDeviceSize(stats.shadowSlots) + stats.missingShadowSlots) * slotBytes)))
+        return true;
+    auto made = lighting.createView(wanted);
+    if (!made)
+        return true; // the frames stay as they are, only slower
+    room = wanted;
+    view = std::make_shared<LightingView>(std::move(made.value()));
+    drawn.reset();
+    return false;
 }
 
 Renderer::Renderer(const VulkanContext& context, const Scene& scene, const RendererOptions& options)
@@ -338,6 +390,11 @@ Renderer::Renderer(const VulkanContext& context, const Scene& scene, const Rende
 }
 
 Renderer::~Renderer() = default;
+
+bool Renderer::fits(uint32_t slot)
+{
+    return state_->fitRoom(slot);
+}
 
 bool Renderer::canDraw(const FrameOptions& options) const
 {
@@ -492,6 +549,7 @@ void Renderer::record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& fr
 {
     prepareToDraw(frame);
     State& s = *state_;
+    s.fitRoom(slot);
     s.moveLights(frame.time);
     const LitImageKey lit = s.litImageKey(slot, frame);
     const bool counts = frame.countPairs || frame.heatMap != HeatMap::None;
@@ -517,7 +575,8 @@ void Renderer::record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& fr
             (frame.heatMap == HeatMap::Shadow ? lighting.shadowImage : lighting.pairImage) =
                 s.heatMaps->pairs();
         }
-        valueOrThrow(s.view.record(cmd, lighting));
+        valueOrThrow(s.view->record(cmd, lighting));
+        s.slotViews[slot] = s.view;
         s.drawn = lit;
         transition(cmd, radiance, computeWrite, computeRead);
     }
@@ -587,7 +646,8 @@ void Renderer::recordBruteRect(VkCommandBuffer cmd, const FrameOptions& frame, c
     prepareToDraw(brute);
     CndLightingFrame lighting = state_->lightingFrame(0, brute);
     lighting.bruteRect = rect;
-    valueOrThrow(state_->view.record(cmd, lighting));
+    valueOrThrow(state_->view->record(cmd, lighting));
+    state_->slotViews[0] = state_->view;
 }
 
 void Renderer::recordBruteEnd(VkCommandBuffer cmd)
@@ -614,7 +674,7 @@ CndLightingFrame Renderer::lightingFrame(uint32_t slot, const FrameOptions& fram
 
 CndLightingStats Renderer::lightingStats(uint32_t slot) const
 {
-    return finishedStats(state_->view.stats(slot));
+    return finishedStats(state_->slotViews[slot]->stats(slot));
 }
 
 std::vector<CndPassPlan> Renderer::State::plan(uint32_t slot, const FrameStats& stats) const

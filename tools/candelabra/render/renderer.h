@@ -32,6 +32,9 @@ struct RendererOptions {
     uint32_t shading = CND_SHADING_CLUSTERED_BIT;
     // How many points of each light shadows are found for: 0 (no shadows), 32 or 64.
     uint32_t shadows = 0;
+    // Bytes for lists and shadows at first, as in CndLightingViewDesc; 0: by the size. Frames that
+    // lack room get more (fits).
+    VkDeviceSize listBudget = 0, shadowBudget = 0;
     bool influenceByError = false; // FrameOptions::influence may be CND_INFLUENCE_BY_ERROR
     // Measures FrameStats::gpuMs, and when passes begin, with four more timestamps per frame.
     bool stamps = false;
@@ -130,6 +133,11 @@ public:
     // reasons that cndAddLightingPipelines gives. Throw RunError.
     void prepareToDraw(const FrameOptions& options);
     void prepareToLightBy(uint32_t lightTypes);
+
+    // Tells whether the last frame in `slot`, which the GPU must have finished, had room for its
+    // lists of lights and for their shadows, or cannot have more. Otherwise the next frame has
+    // more. record() does the same for its slot. Pictures do not depend on it.
+    bool fits(uint32_t slot);
 
     // Changes the image size and keeps the history of exposure. The GPU must have finished all
     // frames.

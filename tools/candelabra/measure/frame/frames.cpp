@@ -36,6 +36,12 @@ public:
         drawn_[slot] = {.open = true, .measured = measured, .lastSample = frame.sample.isLast()};
         newest_ = slot;
     }
+    // Tells whether the newest frame had enough room (Renderer::fits). Waits for the GPU.
+    bool fits()
+    {
+        wait();
+        return renderer_.fits(newest_);
+    }
     // Waits for the GPU and collects what has not been collected.
     void wait()
     {
@@ -93,6 +99,8 @@ MeasuredFrames renderFrames(const VulkanContext& context, Renderer& renderer,
         frames.draw(frame, false);
         onFrame();
     }
+    while (counts.warmUp && !frames.fits())
+        frames.draw(frame, false);
     using Clock = std::chrono::steady_clock;
     for (const auto start = Clock::now();
          std::chrono::duration<double>(Clock::now() - start).count() < counts.warmUpSeconds;)
@@ -234,6 +242,7 @@ Json toJson(const CndLightingStats& stats)
              {"entriesPerTile", stats.listEntries / tiles},
              {"maxListLength", stats.maxListLength},
              {"unlistedClusters", stats.unlistedClusters},
+             {"missingListBytes", stats.missingListBytes},
              {"cutBelowLux", stats.cutBelow},
              {"listedPairs", stats.listedPairs},
              {"insidePairs", stats.insidePairs},
