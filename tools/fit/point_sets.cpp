@@ -19,10 +19,16 @@ namespace
 constexpr uint32_t directions = 96, offsets = 96;
 constexpr double resolution = 1e5; // coordinates are multiples of 1 / resolution
 
+// Edges along a side of the square count more: panels and windows are parallel to the walls, doors
+// and slats that hide them.
+constexpr double alignedWithin = 4; // degrees
+constexpr double alignedWeight = 8;
+
 // The half-planes in one direction: those points x with dot(normal, x) > offset.
 struct Direction {
     glm::dvec2 normal;
     double extent = 1;                   // offsets lie between -extent and extent
+    double weight = 1;
     std::array<double, offsets> share{}; // of the region's area, by offset
 
     // Returns how many of the offsets are below the point.
@@ -60,6 +66,9 @@ std::vector<Direction> halfPlanes(Region region)
         d.normal = {std::cos(angle), std::sin(angle)};
         const double a = std::abs(d.normal.x), b = std::abs(d.normal.y);
         d.extent = region == Region::Disc ? 1 : a + b;
+        const double limit = std::sin(alignedWithin * std::numbers::pi / 180);
+        if (region == Region::Square && std::min(a, b) < limit)
+            d.weight = alignedWeight;
         for (uint32_t k = 0; k < offsets; ++k) {
             const double offset = d.extent * ((2 * k + 1.0) / offsets - 1);
             d.share[k] = region == Region::Disc ? shareOfDisc(offset) : shareOfSquare(a, b, offset);
@@ -89,16 +98,18 @@ public:
                 for (const glm::dvec2& p : points_)
                     error += k < planes_[d].offsetsBelow(p) ? step() : 0;
             }
+        for (const Direction& d : planes_)
+            weights_ += d.weight;
     }
 
     const std::vector<glm::dvec2>& points() const { return points_; }
     double meanSquare() const
     {
         double sum = 0;
-        for (const auto& errors : errors_)
-            for (const double error : errors)
-                sum += error * error;
-        return sum / (directions * offsets);
+        for (uint32_t d = 0; d < directions; ++d)
+            for (const double error : errors_[d])
+                sum += planes_[d].weight * error * error;
+        return sum / (weights_ * offsets);
     }
     // Returns by how much the mean square would grow if the point moved.
     double change(size_t i, const glm::dvec2& to) const
@@ -108,11 +119,11 @@ public:
             const uint32_t before = planes_[d].offsetsBelow(points_[i]);
             const uint32_t after = planes_[d].offsetsBelow(to);
             for (uint32_t k = before; k < after; ++k)
-                sum += step() * (2 * errors_[d][k] + step());
+                sum += planes_[d].weight * step() * (2 * errors_[d][k] + step());
             for (uint32_t k = after; k < before; ++k)
-                sum += step() * (step() - 2 * errors_[d][k]);
+                sum += planes_[d].weight * step() * (step() - 2 * errors_[d][k]);
         }
-        return sum / (directions * offsets);
+        return sum / (weights_ * offsets);
     }
     void move(size_t i, const glm::dvec2& to)
     {
@@ -133,6 +144,7 @@ private:
     std::vector<Direction> planes_;
     std::vector<glm::dvec2> points_;
     std::array<std::array<double, offsets>, directions> errors_{};
+    double weights_ = 0;
 };
 
 } // namespace

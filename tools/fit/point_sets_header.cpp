@@ -20,6 +20,7 @@ const char* const beginning = R"(// SPDX-License-Identifier: Apache-2.0
 // `candelabra_fit points`, which places the points so that an edge of a shadow across a light
 // counts the right share of them. The root mean square of share of points minus share of area, over
 // half-planes, is {:.4f} (64 in the disc), {:.4f} (32), {:.4f} (64 in the square) and {:.4f} (32).
+// Half-planes whose edge is nearly along a side of the square count 8 times.
 // A unit test (PointSets) computes it again. engine/tables/point_table.h derives sets of points
 // from them.
 //
