@@ -79,7 +79,7 @@ public:
     {
         return std::span(nodes_.contents).subspan(mesh.firstNode, mesh.nodeCount);
     }
-    // Everything that the device has after an upload.
+    // What uploads bring to the device. refit_occluders then replaces some of it.
     std::span<const gpu::OccluderNode> allNodes() const { return nodes_.contents; }
     std::span<const gpu::OccluderTriangle> allTriangles() const { return triangles_.contents; }
     std::span<const gpu::OccluderNeighbours> allNeighbours() const { return neighbours_.contents; }

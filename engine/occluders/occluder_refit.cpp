@@ -41,15 +41,15 @@ void OccluderRefit::prepare(size_t meshes)
     if (pending_ && pending_->count >= count)
         return;
     const uint64_t inUse = recordings_.oldestPending();
-    pending_ = nullptr;
-    std::erase_if(sets_, [&](const Sets& s) { return s.recording < inUse && s.count < count; });
-    for (Sets& sets : sets_)
-        if (sets.recording < inUse) {
-            pending_ = &sets;
-            return;
-        }
-    sets_.push_back({kernels_[0].createBindings(count), count});
-    pending_ = &sets_.back();
+    const auto isFree = [&](const Sets& s) { return s.recording < inUse; };
+    auto next =
+        std::ranges::find_if(sets_, [&](const Sets& s) { return isFree(s) && s.count >= count; });
+    if (next == sets_.end()) {
+        sets_.push_front({kernels_[0].createBindings(count), count});
+        next = sets_.begin();
+    }
+    pending_ = &*next; // nothing before this has changed what the next recording uses
+    std::erase_if(sets_, [&](const Sets& s) { return isFree(s) && s.count < count; });
 }
 
 void OccluderRefit::write(uint32_t set, const MeshTable& meshes, const InstanceTable& instances,

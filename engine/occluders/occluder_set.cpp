@@ -130,10 +130,18 @@ void OccluderSet::replacePositionsOnDevice(std::span<const DevicePositions> posi
         return;
     meshes_.check(positions);
     recordings_.freeRetired();
-    if (!refit_)
+    const bool isFirst = !refit_;
+    if (isFirst)
         refit_.emplace(device_, recordings_);
-    prepareRefit(size_t(std::ranges::count_if(
-        positions, [&](const DevicePositions& p) { return !meshes_[p.mesh].onDevice.buffer; })));
+    try {
+        prepareRefit(size_t(std::ranges::count_if(positions, [&](const DevicePositions& p) {
+            return !meshes_[p.mesh].onDevice.buffer;
+        })));
+    } catch (...) {
+        if (isFirst)
+            refit_.reset(); // recordings would need what could not be made
+        throw;
+    }
     instances_.reserve(0, 0, true);
     meshes_.replacePositionsOnDevice(positions);
     ++number_;

@@ -23,8 +23,7 @@ uint32_t lightsPerBatch(const gpu::Device& device, uint32_t lightType, CndSpecul
 // (SPEC_WALK_TURNS), which leaves some for other loops; 0: as many as they like.
 uint32_t walkTurns(const gpu::Device& device);
 // How many lights of a tree a dispatch takes on devices that limit loops if each pixel walks
-// through the occluders of each light. No walk through a scene of ours takes more than 20,000
-// turns; most take some hundred.
+// through the occluders of each light. Most walks take some hundred turns.
 constexpr uint32_t walkedLightsPerBatch = gpu::TREE_WIDTH * gpu::TREE_WIDTH;
 
 // Splits `lights` into consecutive batches of at most `largest` lights and calls `record` with

@@ -82,15 +82,17 @@ struct LightCursor {
     TreeWalk walk;
 };
 
-// Returns a cursor that stands before the first light.
+// Returns a cursor that stands before the first light. Its light is one of the type, because lanes that
+// wait for others read one.
 LightCursor lightsAt(uint type, vec3 position)
 {
     lightType = type;
     const TreeShape tree = forwardView.trees[type];
     if (IS_DISTANT) // every distant light reaches every position, so there is no tree
-        return LightCursor(0u, position, tree.firstLight, tree.firstLight + tree.lightCount,
+        return LightCursor(tree.firstLight, position, tree.firstLight,
+                           tree.firstLight + tree.lightCount,
                            TreeWalk(0u, 0u, 0u, 0u, true));
-    return LightCursor(0u, position, 0u, 0u, beginTreeWalk(tree, TREE_LEVELS));
+    return LightCursor(tree.firstLight, position, 0u, 0u, beginTreeWalk(tree, TREE_LEVELS));
 }
 
 // Goes to the next light. Returns false after the last one.

@@ -187,7 +187,7 @@ bool mayWalk()
 }
 
 // Walks on to the next leaf with triangles or instances that may hide points of a lane. Returns it as
-// OccluderNode::leaf. 0: the tree has ended.
+// OccluderNode::leaf. 0: the tree has ended, or the lanes may not walk on.
 uint nextLeaf(inout OccluderWalk w)
 {
     uint leaf = 0u;
@@ -195,16 +195,17 @@ uint nextLeaf(inout OccluderWalk w)
     do {
         do {
             ++walkTurns;
-            node = occluderNode(w.firstNode + min(w.node, w.end - 1u));
+            // At the end of the tree, its root leads there: other nodes may be of a removed mesh.
+            node = occluderNode(w.firstNode + (w.node < w.end ? w.node : 0u));
             const bool touches = w.walks && boxIsInCone(w, w.space.cone, node.low, node.high);
             const bool visits = w.node < w.end && subgroupAny(touches);
             leaf = visits ? node.leaf : 0u;
             w.node = visits && leaf == 0u ? w.node + 1u : node.skip;
-        } while (leaf == 0u && w.node < w.end);
+        } while (leaf == 0u && w.node < w.end && mayWalk());
         ++walkTurns;
         if (!subgroupAny(w.walks && !isEmpty(litPointsIn(w, node))))
             leaf = 0u;
-    } while (leaf == 0u && w.node < w.end);
+    } while (leaf == 0u && w.node < w.end && mayWalk());
     return leaf;
 }
 
@@ -244,7 +245,7 @@ uvec2 visiblePoints(OccluderQuery q, TreeSpace tree, bool asks, out bool isFinis
         isDone = !isLit || (!w.inMesh && w.node >= w.end && leafCount(w.leaf) == 0u);
         ++walkTurns;
     }
-    isFinished = !asks || isDone;
+    isFinished = !asks || isDone || isEmpty(w.lit);
     return w.lit;
 }
 

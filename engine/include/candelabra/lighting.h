@@ -200,10 +200,10 @@ typedef struct CndLightingViewDesc {
     VkDeviceSize listBudget;
     // Bytes for what pixels see of lights, with CndLightingDesc::shadows. Every light on the list
     // of a cluster takes 256 of them, and 60 more beside the budget. Clusters for which there is no
-    // room are shaded by walking the light tree, as those without a list. 256 bytes more per 8x8
-    // pixel tile of the largest frame are for distant lights, which each take so much in a frame of
-    // that size. 0: default, 128 MiB, less if the sum exceeds the device's maxStorageBufferRange.
-    // With a larger budget there is less room for distant lights.
+    // room are shaded by walking the light tree, as those without a list. The view allocates 256
+    // bytes more per 8x8 pixel tile of the largest frame, which is room for one distant light. 0:
+    // default, 128 MiB, less if the sum exceeds the device's maxStorageBufferRange. A larger budget
+    // leaves less room for distant lights.
     VkDeviceSize shadowBudget;
 } CndLightingViewDesc;
 
@@ -257,8 +257,8 @@ typedef struct CndLightingFrame {
     // reused if the light set, occluders, layers, specularMethod, sampleCount, influence.rule and
     // shadowsOff are also the same and both frames use CND_CULLING_CLUSTERED. So is what pixels see
     // of lights, unless rays of the host find it, because what they hit may have moved, or there is
-    // no room for all distant lights in view (shadowBudget). No kernel then looks for shadows. With
-    // CND_INFLUENCE_BY_ERROR nothing is ever reused.
+    // no room for all distant lights in view (shadowBudget). Only hosts' shaders and the pixels of
+    // unlistedClusters then look for shadows. With CND_INFLUENCE_BY_ERROR nothing is ever reused.
     VkBool32 surfacesUnchanged;
     // With CND_CULLING_BRUTE: the pixels to shade; zero extent: all pixels. No dispatch evaluates
     // more than 2^28 pairs of pixel and light (with more than four million lights: the pairs of 64
@@ -382,8 +382,8 @@ typedef struct CndLightingStats {
     // triangles that may be there. walkedSlots: these are too many for a list, or the light is too
     // near, and pixels walk through the trees of the occluders.
     uint32_t litSlots, listedSlots, walkedSlots;
-    // On devices that limit loops: pairs whose search for occluders was cut off. They have fewer
-    // shadows than they should.
+    // On devices that limit loops: pairs whose search for occluders was cut off in this frame. They
+    // have fewer shadows than they should.
     uint32_t unfinishedPairs;
     // Pairs of a part of 32x32 pixels and a light, for which a proof was tried that one occluder
     // hides the light from all of them, and those proven. Proven lights are in no list or count.

@@ -18,7 +18,7 @@ typedef uint64_t CndOccluderId;
 // triangles are two-sided and need not be connected or closed. Triangles without an area are
 // allowed and cast no shadow. A mesh takes about 80 bytes of device memory per triangle, and
 // as much plus 24 bytes of host memory. If its positions are written on the device, such as those
-// of skinned meshes, these are those of a typical pose (CndDevicePositions).
+// of skinned meshes, give those of a typical pose here (CndDevicePositions).
 typedef struct CndOccluderMesh {
     // The first of vertexCount positions, three floats each, in metres in the mesh's own space.
     // Each coordinate is within 1e15. All positions are checked, also those that no triangle uses.
@@ -95,9 +95,9 @@ CND_API CndResult cndReplaceOccluderPositions(CndLighting lighting, CndOccluderM
 // Gives meshes positions that are written on the device. No mesh may occur twice. The next
 // recording writes their triangles and fits the boxes around them, and around all instances, on the
 // device. For positions that were written later, call it again, with the same values or others;
-// once as many frames are in flight as ever, that allocates nothing. cndReplaceOccluderPositions
-// takes a mesh back to positions of the host. CND_ERROR_UNSUPPORTED: the positions of a mesh take
-// more than maxStorageBufferRange.
+// once as many frames have been in flight as ever will be, that allocates no device memory.
+// cndReplaceOccluderPositions takes a mesh back to positions of the host. CND_ERROR_UNSUPPORTED:
+// the positions of a mesh take more than maxStorageBufferRange.
 //
 // Such a mesh proves that lights are hidden (CndLightingStats::wonProofs) only across edges whose
 // two triangles have the same indices there: vertices that merely are in one place may part. Its

@@ -20,6 +20,7 @@ namespace
 constexpr uint32_t estimateRows = 12;
 // Bound the time that an estimate takes.
 constexpr double mostPairsTested = 2e7;
+constexpr uint64_t mostBoxesTested = 20000000; // then the points so far stand for all
 constexpr size_t lightsPerPoint = 2;
 
 // What llvmpipe takes for a pair of a pixel and a light (DECISIONS 86), in seconds of CPU time: if
@@ -96,17 +97,21 @@ bool isHidden(const Scene& scene, RayCaster& caster, const Shaft& shaft, uint32_
     return true;
 }
 
-double secondsOfPair(const Scene& scene, RayCaster& caster, Shaft shaft, double tileRadius,
-                     uint32_t ignoredLayers)
+// `boxes`: grows by those that were tested.
+double secondsOfPair(const Scene& scene, RayCaster& caster, const Shaft& shaft, double tileRadius,
+                     uint32_t ignoredLayers, uint64_t& boxes)
 {
     if (isHidden(scene, caster, shaft, ignoredLayers))
         return hiddenPair;
+    Shaft fromTile = shaft;
+    fromTile.startRadius = tileRadius;
+    const ShaftContents ofTile = caster.contentsOf(fromTile, ignoredLayers);
+    boxes += ofTile.boxes;
+    if (ofTile.triangles <= mostListed)
+        return ofTile.triangles == 0 ? litPair : listedPair;
     const ShaftContents ofPixel = caster.contentsOf(shaft, ignoredLayers);
-    shaft.startRadius = tileRadius;
-    const ShaftContents ofTile = caster.contentsOf(shaft, ignoredLayers);
-    return ofTile.triangles == 0            ? litPair
-           : ofTile.triangles <= mostListed ? listedPair
-                                            : walkedPair + walkedBox * double(ofPixel.boxes);
+    boxes += ofPixel.boxes;
+    return walkedPair + walkedBox * double(ofPixel.boxes);
 }
 
 } // namespace
@@ -132,8 +137,9 @@ double shadowCpuSeconds(const Scene& scene, const Camera& camera, PixelSize size
     };
     std::vector<AskedLight> asked;
     double seconds = 0;
+    uint64_t boxes = 0;
     size_t count = 0;
-    for (size_t i = 0; i < points.size(); i += step, ++count) {
+    for (size_t i = 0; i < points.size() && boxes < mostBoxesTested; i += step, ++count) {
         asked.clear();
         for (const CndLight* light : lights)
             if (const auto shaft = shaftTo(scene, *light, points[i].hit, extent, uncut))
@@ -141,9 +147,9 @@ double shadowCpuSeconds(const Scene& scene, const Camera& camera, PixelSize size
         const size_t some = std::min(asked.size(), lightsPerPoint);
         for (size_t k = 0; k < some; ++k) {
             const AskedLight& a = asked[(2 * k + 1) * asked.size() / (2 * some)];
-            seconds +=
-                secondsOfPair(scene, caster, a.shaft, points[i].tileRadius, a.ignoredLayers) *
-                double(asked.size()) / double(some);
+            seconds += secondsOfPair(scene, caster, a.shaft, points[i].tileRadius, a.ignoredLayers,
+                                     boxes) *
+                       double(asked.size()) / double(some);
         }
     }
     const double pixels = double(size.width) * size.height * double(points.size()) / double(rays);

@@ -215,6 +215,7 @@ struct Renderer::State {
     std::shared_ptr<LightingView> view;
     std::vector<std::shared_ptr<LightingView>> slotViews; // which recorded the slot's last frame
     CndLightingViewDesc room{};                           // of `view`
+    bool canGrow = true; // false: a larger view could not be made
     Exposure exposure;
     Environment environment; // empty: the scene has none
     std::vector<CndLight> lights;
@@ -316,15 +317,15 @@ void Renderer::State::createSized()
     display = {};
     targets = gbuffer::createTargets(device, options.gbufferLayout, width, height);
     display = createDisplay(device, options.size);
-    // The defaults of the library. 64 MiB are 32 bytes for each of 1920x1080 pixels, and larger
+    // 64 MiB, the default of the library, are 32 bytes for each of 1920x1080 pixels, and larger
     // images have more lists. fitRoom() finds what more lights need.
     const VkDeviceSize most = device.limits.maxStorageBufferRange;
     const VkDeviceSize lists = std::max<VkDeviceSize>(64 << 20, 32ull * width * height);
     room = {.maxWidth = width,
             .maxHeight = height,
             .listBudget = std::min(options.listBudget ? options.listBudget : lists, most),
-            .shadowBudget = std::min<VkDeviceSize>(
-                options.shadowBudget ? options.shadowBudget : 128 << 20, most)};
+            .shadowBudget = std::min(options.shadowBudget, most)};
+    canGrow = true;
     view = std::make_shared<LightingView>(valueOrThrow(lighting.createView(room)));
 }
 
@@ -333,7 +334,7 @@ void Renderer::State::createSized()
 // missing does not tell how many slots shadows need, so the next one may lack some.
 bool Renderer::State::fitRoom(uint32_t slot)
 {
-    if (slotViews[slot] != view || !litSlots[slot])
+    if (!canGrow || slotViews[slot] != view || !litSlots[slot])
         return true;
     auto known = view->stats(slot);
     if (!known || !known.value())
@@ -353,6 +354,7 @@ bool Renderer::State::fitRoom(uint32_t slot)
                 (VkDeviceSize(stats.shadowSlots) + stats.missingShadowSlots) * slotBytes)))
         return true;
     auto made = lighting.createView(wanted);
+    canGrow = bool(made);
     if (!made)
         return true; // the frames stay as they are, only slower
     room = wanted;
