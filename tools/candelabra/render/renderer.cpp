@@ -215,7 +215,7 @@ struct Renderer::State {
     std::shared_ptr<LightingView> view;
     std::vector<std::shared_ptr<LightingView>> slotViews; // which recorded the slot's last frame
     CndLightingViewDesc room{};                           // of `view`
-    bool canGrow = true; // false: a larger view could not be made
+    bool canGrow = true;                                  // false: a larger view could not be made
     Exposure exposure;
     Environment environment; // empty: the scene has none
     std::vector<CndLight> lights;
