@@ -27,7 +27,7 @@ constexpr double alignedWeight = 8;
 // The half-planes in one direction: those points x with dot(normal, x) > offset.
 struct Direction {
     glm::dvec2 normal;
-    double extent = 1;                   // offsets lie between -extent and extent
+    double extent = 1; // offsets lie between -extent and extent
     double weight = 1;
     std::array<double, offsets> share{}; // of the region's area, by offset
 
