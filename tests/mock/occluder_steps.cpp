@@ -146,6 +146,12 @@ std::vector<Step> occluderEditSteps()
                                                 occluderInputs().positions + 3, 0, error);
          }},
         {"record what has moved", true, recordShadows},
+        // The next call follows an edit that is not recorded yet.
+        {"update an occluder", false,
+         [](Host& h, CndError* error) {
+             return cndUpdateOccluders(h.lighting, 1, occluderInputs().ids,
+                                       occluderInputs().instances + 5, error);
+         }},
         {"use positions on the device", false,
          [](Host& h, CndError* error) { return useDevicePositions(h, 0, error); }},
         {"record what is on the device", true, recordShadows},
