@@ -31,7 +31,7 @@ static_assert(gpu::LIGHT_TREE_GROUP == gpu::TREE_WIDTH * gpu::TREE_WIDTH);
 // among the fastest in the hall, and takes up to 1.3 of the time without a limit in the fence
 // (DECISIONS 70).
 constexpr uint32_t longestBlockList = 1024;
-// The same where proofs may remove most of the lights (DECISIONS 82).
+// The longest list of a block if proofs follow, which may remove most of its lights (DECISIONS 82).
 constexpr uint32_t longestProvenList = 16384;
 
 uint32_t nodeCount(uint32_t lights)

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // This sample is a host that draws a shadow map and gives the library its shadow term. A spot light
-// behind the camera casts the shadow of a window frame on a wall. A second light set has a lamp
-// without a shadow map, which lights the whole wall. The shadow term is GLSL of the host inside
-// Candelabra's kernels. The sample writes embed_shadow_map.ppm (or the file named as argument),
-// compares the wall with its closed form, pixel by pixel, and exits with 1 if it is wrong.
+// stands behind the camera, and a window frame casts its shadow on a wall. A second light set
+// contains one lamp that has no shadow map; it lights the whole wall. The shadow term is the host's
+// own GLSL, which runs inside Candelabra's kernels. The sample writes embed_shadow_map.ppm (or the
+// file named as argument), compares the wall with its closed form, pixel by pixel, and exits with 1
+// if it is wrong.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -13,7 +13,7 @@ struct StalkPush {
     float length, radius, bend;
 };
 
-// The same as the shader writes for a bend of 0.
+// Returns the stalk that the shader writes for a bend of 0.
 Mesh straightStalk()
 {
     Mesh mesh;

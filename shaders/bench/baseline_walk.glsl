@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads the lists of the baselines as blocks for light_walk.glsl.
+#include "kernels/common/page_header.glsl"
 #include "shared/baselines.h"
-#include "shared/cluster_data.h"
 
 layout(constant_id = SPEC_BASELINE) const uint baseline = BASELINE_OF_TILES;
 layout(scalar, binding = BASELINE_HEADS) readonly buffer Heads
@@ -30,8 +30,7 @@ struct Block {
 Block pageBlock(uint page)
 {
     const uint header = entries[page * PAGE_WORDS];
-    return Block(page * PAGE_WORDS + 1u, header & ((1u << PAGE_COUNT_BITS) - 1u),
-                 header >> PAGE_COUNT_BITS);
+    return Block(page * PAGE_WORDS + 1u, lightsOfPage(header), pageAfter(header));
 }
 
 Block runBlock(uint first, uint left)

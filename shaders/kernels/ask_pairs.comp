@@ -8,6 +8,7 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "kernels/common/frame_params.glsl"
+#include "kernels/common/page_header.glsl"
 #include "lib/ordered_bits.glsl"
 #include "lib/tile_pixels.glsl"
 #include "lib/visibility/own_surface.glsl"
@@ -162,7 +163,7 @@ void askForLights(uint cluster, uint page)
     bool fits = true;
     do {
         const uint header = entries[page * PAGE_WORDS];
-        const uint count = header & ((1u << PAGE_COUNT_BITS) - 1u);
+        const uint count = lightsOfPage(header);
         if (lane == 0u) {
             firstSlot = takeSlots(count);
             pageSlots[page] = firstSlot;
@@ -172,7 +173,7 @@ void askForLights(uint cluster, uint page)
         fits = fits && first + count <= params.capacity;
         if (fits && lane < count)
             writeRecord(first + lane, tile, cluster, entries[page * PAGE_WORDS + 1u + lane]);
-        page = header >> PAGE_COUNT_BITS;
+        page = pageAfter(header);
         barrier(); // before firstSlot is written again
     } while (page != 0u);
     if (!fits && lane == 0u) {

@@ -2,6 +2,7 @@
 // Makes a record of each page in the lists of blocks, for prove_dark.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "kernels/common/page_header.glsl"
 #include "shared/occluder_data.h"
 
 layout(local_size_x = ASK_PROOFS_GROUP) in;
@@ -45,6 +46,6 @@ void main()
             records[at] = ProofRecord(page, cluster, params.lightType);
             atomicMax(asked.groupsY, at / PROOF_ROW + 1u);
         }
-        page = entries[page * PAGE_WORDS] >> PAGE_COUNT_BITS;
+        page = pageAfter(entries[page * PAGE_WORDS]);
     }
 }

@@ -4,6 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernels/common/frame_params.glsl"
+#include "kernels/common/page_header.glsl"
 #include "kernels/common/tile_of_group.glsl"
 #include "kernels/common/count_in_64_bits.glsl"
 #include "shared/occluder_data.h"
@@ -61,8 +62,8 @@ void main()
             page = lists[clusterOf(tile, depth)];
         while (page != LIST_EMPTY && page != LIST_UNLISTED && page != LIST_LONG) {
             const uint header = entries[page * PAGE_WORDS];
-            addSlots(counts, pageSlots[page], header & ((1u << PAGE_COUNT_BITS) - 1u));
-            page = header >> PAGE_COUNT_BITS;
+            addSlots(counts, pageSlots[page], lightsOfPage(header));
+            page = pageAfter(header);
         }
         if (params.writesImage != 0u)
             imageStore(shadowImage, ivec2(pixel),

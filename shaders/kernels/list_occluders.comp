@@ -46,7 +46,7 @@ shared uvec2 foundItems[MAX_ITEMS * LIST_OCCLUDERS_GROUP];
 
 // A walk through the trees with the shaft of a pair.
 struct ShaftWalk {
-    ClusterShaft shaft;          // in the space of the tree that the walk is in
+    ClusterShaft shaft;   // in the space of the tree that the walk is in
     bool inMesh;          // false: in the tree over instances
     uint node, end;       // the next node, and the number of nodes
     uint nextOfInstances; // the next node of the tree over instances while the walk is in a mesh

@@ -10,6 +10,7 @@
 #extension GL_KHR_shader_subgroup_vote : require
 #include "kernels/common/frame_params.glsl"
 #include "kernels/common/light_stream.glsl"
+#include "kernels/common/page_header.glsl"
 #include "lib/projection.glsl"
 #include "shading/occluder_buffers.glsl"
 #include "shading/occluder_leaf.glsl"
@@ -279,8 +280,8 @@ void writePage(uint page, uint header, uint light)
     if (lane != 0u)
         return;
     const uint count = uint(bitCount(kept.x) + bitCount(kept.y));
-    const uint all = header & ((1u << PAGE_COUNT_BITS) - 1u);
-    entries[page * PAGE_WORDS] = header - all + count;
+    const uint all = lightsOfPage(header);
+    entries[page * PAGE_WORDS] = pageHeader(count, pageAfter(header));
     atomicAdd(counters.triedProofs, uint(bitCount(triedLights[0]) + bitCount(triedLights[1])));
     atomicAdd(counters.wonProofs, all - count);
 }
@@ -296,7 +297,7 @@ void main()
         triedLights[lane] = keptLights[lane] = 0u;
     barrier();
     const uint header = entries[record.page * PAGE_WORDS];
-    const bool isLight = lane < (header & ((1u << PAGE_COUNT_BITS) - 1u));
+    const bool isLight = lane < lightsOfPage(header);
     const uint light = entries[record.page * PAGE_WORDS + 1u + (isLight ? lane : 0u)];
     const vec4 centreRadius = lightCentre(light);
     const LightShape shape = lightShapes[light];

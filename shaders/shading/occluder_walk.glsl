@@ -58,18 +58,18 @@ struct WalkSpace {
 
 // A walk. It is either in the tree over instances or in the tree of a mesh.
 struct OccluderWalk {
-    // Of each lane.
-    uvec2 lit; // points that no triangle has hidden so far
+    // These members differ between lanes.
+    uvec2 lit;  // points that no triangle has hidden so far
     bool walks; // false: the rest of the tree hides nothing from the lane
     uint shape; // of the facet
     FrontSurface front;
     WalkSpace space;
-    // The same in all lanes that walk together.
+    // These members are the same in all lanes that walk together.
     bool inMesh;
-    uint node, end;           // the next node of the tree, and the number of its nodes
-    uint nextOfInstances;     // the next node of the tree over instances while the walk is in a mesh
-    uint instance;            // that the walk is in
-    uint firstNode, firstTriangle; // of its mesh
+    uint node, end;       // the next node of the tree, and the number of its nodes
+    uint nextOfInstances; // the next node of the tree over instances while the walk is in a mesh
+    uint instance;        // the instance that the walk is in
+    uint firstNode, firstTriangle; // the first ones of its mesh
     uint leaf; // instances that were found and have not been entered: as OccluderNode::leaf
 };
 

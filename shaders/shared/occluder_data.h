@@ -145,10 +145,11 @@ struct AskedPairs {
     uint groups[3];             // of list_occluders, in rows, as WorkList::groupsX, Y and Z
     uint items;                 // also counts items that there was no room for
     WorkList kinds[PAIR_KINDS]; // a group per pair
-    uint first;                 // slot of the light type
-    // Of all light types so far. The members above begin anew with each type.
-    uint written; // all records before it are written
-    uint taken;   // slots; also counts slots that there were not
+    uint first;                 // first slot of the light type
+    // The next two members count for all light types that have asked so far in the frame. Those
+    // above are reset for each type.
+    uint written; // all records before this slot are written
+    uint taken;   // slots that were asked for, also beyond the capacity
 };
 GPU_SIZE(AskedPairs, 88)
 const uint ITEMS_PER_SLOT = 4u; // for which there is room

@@ -246,8 +246,8 @@ TEST_F(VisibilityBits, LightInFullViewKeepsThem)
             drawn[0] = drawFrame(own.view, frameOf(g, images, options), images);
             continue;
         }
-        // The first mesh, one triangle behind the camera, hides no light. The second mesh, a row of
-        // triangles between the surfaces and the lights, hides some.
+        // The first mesh is one triangle behind the camera. It hides no light. The second mesh is a
+        // row of triangles between the surfaces and the lights. It hides some of the lights.
         std::vector<float> positions = {-9, -9, 5, 9, -9, 5, 0, 9, 5};
         for (float x = -4; x <= 4; x += 0.5f)
             positions.insert(positions.end(), {x, -30, 0, x, 30, 0, x, 0, -40});

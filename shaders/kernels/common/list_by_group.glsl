@@ -62,13 +62,13 @@ bool searchPages(inout ListWriter list, ClusterBounds bounds, uint page, bool is
     while (page != NO_PAGE && !(isBlock && isUseless(list))) {
         const uint header = entries[page * PAGE_WORDS];
         const uvec2 onPage = first + lane + uvec2(0u, LANES);
-        const bvec2 exist = lessThan(onPage, uvec2(pageCount(header)));
+        const bvec2 exist = lessThan(onPage, uvec2(lightsOfPage(header)));
         const uvec2 words = page * PAGE_WORDS + 1u + min(onPage, uvec2(PAGE_LIGHTS - 1u));
         const uvec2 found = uvec2(entries[words.x], entries[words.y]);
         testLights(list, bounds, mix(uvec2(params.tree.firstLight), found, exist), exist,
-                   first + LANES < pageCount(header));
+                   first + LANES < lightsOfPage(header));
         first += TESTS_PER_LANE * LANES;
-        if (first >= pageCount(header)) {
+        if (first >= lightsOfPage(header)) {
             page = pageAfter(header);
             first = 0u;
         }

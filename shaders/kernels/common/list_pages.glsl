@@ -4,6 +4,7 @@
 #define CND_COMMON_LIST_PAGES
 
 #include "kernels/common/cluster_of_list.glsl"
+#include "kernels/common/page_header.glsl"
 
 const uint NO_PAGE = 0u;
 
@@ -33,19 +34,6 @@ uint reservePage()
 bool isUseless(ListWriter list)
 {
     return list.found > params.longest;
-}
-
-uint pageHeader(uint count, uint next)
-{
-    return next << PAGE_COUNT_BITS | count;
-}
-uint pageCount(uint header)
-{
-    return header & ((1u << PAGE_COUNT_BITS) - 1u);
-}
-uint pageAfter(uint header)
-{
-    return header >> PAGE_COUNT_BITS;
 }
 
 // Completes the last page and returns the head of the list: its first page, or which kind of list

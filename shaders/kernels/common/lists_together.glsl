@@ -66,7 +66,7 @@ uint lookUpSet(uint first)
         setCluster[lane] = at;
         setParent[lane] = parent;
         setPairs[lane] =
-            isShort && parent != LIST_EMPTY ? pageCount(entries[parent * PAGE_WORDS]) : 0u;
+            isShort && parent != LIST_EMPTY ? lightsOfPage(entries[parent * PAGE_WORDS]) : 0u;
         setFound[lane] = 0u;
         setPage[lane] = NO_PAGE;
     }

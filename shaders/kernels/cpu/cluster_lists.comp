@@ -67,7 +67,7 @@ bool searchPages(inout LaneList l, uint page)
 {
     while (page != NO_PAGE && goesOn(l)) {
         const uint header = entries[page * PAGE_WORDS];
-        const uint count = pageCount(header);
+        const uint count = lightsOfPage(header);
         for (uint first = 0u; first < count; first += TREE_WIDTH) {
             makeRoom(l.list);
             const uint end = min(first + TREE_WIDTH, count);

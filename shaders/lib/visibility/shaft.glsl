@@ -60,8 +60,8 @@ vec3 farthestAlong(ClusterShaft s, vec3 point)
 // localFromTree, translation: the transform from the space of s.
 // anisotropy: product of the Frobenius norms of both directions of the transform, at least 3.
 // rootLow, rootHigh: box of the tree.
-ClusterShaft shaftIn(ShaftEnds s, mat3 localFromTree, vec3 translation, float anisotropy, vec3 rootLow,
-              vec3 rootHigh)
+ClusterShaft shaftIn(ShaftEnds s, mat3 localFromTree, vec3 translation, float anisotropy,
+                     vec3 rootLow, vec3 rootHigh)
 {
     const mat3 sizes = mat3(abs(localFromTree[0]), abs(localFromTree[1]), abs(localFromTree[2]));
     const vec3 middle = localFromTree * s.middle + translation;
