@@ -42,7 +42,7 @@ namespace
     X(maxComputeWorkGroupSize[0], 256, exposureModule)                                             \
     X(maxPerStageDescriptorStorageBuffers, mostStorageBuffers, lightingModule | rasterPass)        \
     X(maxPerStageDescriptorStorageBuffers, shadowStorageBuffers, shadowKernels)
-constexpr uint32_t mostStorageBuffers = 10, shadowStorageBuffers = 11, guaranteedStorageBuffers = 4;
+constexpr uint32_t mostStorageBuffers = 10, shadowStorageBuffers = 14, guaranteedStorageBuffers = 4;
 
 std::string versionText(uint32_t version)
 {

@@ -65,7 +65,7 @@ public:
         gpu::Kernel<gpu::MeasureInfluenceParams> measure;
         // Only of CND_SPECULAR_NONE, for all methods, with CndLightingDesc::shadows. One per kind
         // of pairs, such as gpu::PAIRS_WALKED; those below pairKinds() exist.
-        gpu::Kernel<gpu::PairVisibilityParams> visibility[gpu::PAIR_KINDS];
+        gpu::Kernel<gpu::PairVisibilityParams> visibility[gpu::SLOT_KINDS];
     };
     // These return kernels of a type that is present, for a frame that is allowed.
     const Variant& variant(uint32_t type, CndSpecularMethod method) const;
@@ -79,7 +79,7 @@ public:
     // nor does any light if the host finds points.
     uint32_t pairKinds(uint32_t type) const
     {
-        return isDistant(type) || host_->findsPoints() ? 1 : gpu::PAIR_KINDS;
+        return isDistant(type) || host_->findsPoints() ? 1 : gpu::SLOT_KINDS;
     }
     // `tileClass`: one of tileClasses().
     const Tiles& tiles(uint32_t type, CndSpecularMethod method, uint32_t tileClass) const;

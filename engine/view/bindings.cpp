@@ -131,8 +131,8 @@ void View::writeShadeBindings(const CndLightingFrame& frame, const surfaces::GBu
     listed.add(gbuffer);
     walked.add(gbuffer);
     if (shadows_) {
-        listed.add(
-            std::array{shadows_->slots(), shadows_->pageSlots(), shadows_->view(frame.frameSlot)});
+        listed.add(shadows_->slotBindings());
+        listed.add(std::array{shadows_->view(frame.frameSlot)});
         walked.add(shadows_->occluderBindings(frame.frameSlot));
         walked.add(shadows_->occluderTexels());
         walked.add(std::array{Shadows::counters(counters_)});

@@ -97,8 +97,8 @@ Shadows::Shadows(const Module& module, const Clusters& clusters, uint32_t slots,
                                VK_BUFFER_USAGE_TRANSFER_DST_BIT)),
       bounds_(createScratch(module, "bounds of samples",
                             clusters.firstOfBlocks() * sizeof(gpu::SampleBounds))),
-      pageSlots_(
-          createScratch(module, "slots of pages", clusters.entries().size / gpu::PAGE_WORDS)),
+      pagePairs_(
+          createScratch(module, "pairs of pages", clusters.entries().size / gpu::PAGE_WORDS)),
       points_(gpu::createBuffer(module.device, "visibility points",
                                 tables::pointTable(module.desc.shadows.points).size() *
                                     sizeof(glm::uvec2),
@@ -109,7 +109,7 @@ Shadows::Shadows(const Module& module, const Clusters& clusters, uint32_t slots,
       visibilitySets_(module.device, spirv::pair_visibility_comp_sphere,
                       slots * CND_LIGHT_TYPE_COUNT),
       countSets_(module.kernels.countShadows[0].createBindings(slots * CND_LIGHT_TYPE_COUNT)),
-      listSets_(module.kernels.listOccluders.createBindings(slots)),
+      listSets_(module.kernels.listOccluders.createBindings(slots * CND_LIGHT_TYPE_COUNT)),
       polygonSets_(module.kernels.polygonFacets.createBindings(slots))
 {
     static_assert(sizeof(gpu::ShadowView) <= viewStride);
@@ -133,12 +133,18 @@ std::array<Binding, 5> Shadows::occluderBindings(uint32_t slot) const
 {
     const OccluderSet& occluders = *module_.occluders;
     const auto bind = [&](uint32_t binding, const gpu::Buffer& buffer) {
-        return Binding::of(binding, buffer.get() ? buffer : pageSlots_);
+        return Binding::of(binding, buffer.get() ? buffer : pagePairs_);
     };
     return {bind(gpu::SHADOW_INSTANCES, prepared_.buffer()),
             bind(gpu::SHADOW_NODES, occluders.meshes().nodes()),
             bind(gpu::SHADOW_TRIANGLES, occluders.meshes().triangles()),
             Binding::ofTexels(gpu::SHADOW_POINTS, points_), view(slot)};
+}
+
+std::array<Binding, 3> Shadows::slotBindings() const
+{
+    return {slots(), Binding::of(gpu::SHADOW_PAGE_PAIRS, pagePairs_),
+            Binding::of(gpu::SHADOW_ASKED, asked_)};
 }
 
 std::array<Binding, 3> Shadows::occluderTexels() const
@@ -172,32 +178,15 @@ void Shadows::writeBindings(const FramePlan& plan, const Inputs& in) const
     BindingList surfaces;
     surfaces.add(occluderBindings(slot));
     surfaces.add(occluderTexels());
-    const Binding shadowCounters = counters(in.counters);
-    listSets_.write(
-        slot,
-        {Binding::of(SHADE_SHAPES, in.shapes), Binding::of(LIST_OCCLUDERS_ASKED, asked_),
-         Binding::of(LIST_OCCLUDERS_BOUNDS, bounds_), Binding::ofTexels(LIGHT_CORE_TEXELS, in.core),
-         Binding::of(LIGHT_CORE, in.core), shadowCounters},
-        surfaces);
     surfaces.add(in.gbuffer.bindings());
-    const Binding askCounters = counters(in.counters, ASK_PAIRS_SHADOW_COUNTERS);
+    const Binding shadowCounters = counters(in.counters);
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
         if (!lights.typeCounts()[type])
             continue;
         const uint32_t set = slot * CND_LIGHT_TYPE_COUNT + type;
         const Clusters::Lists& lists = clusters_.lists(type);
         if (!isDistant(type))
-            askSets_.write(set, {Binding::of(ASK_PAIRS_CLUSTERS, clusters_.clusters()),
-                                 Binding::of(ASK_PAIRS_TILES, clusters_.tiles()),
-                                 Binding::of(ASK_PAIRS_SPLITS, clusters_.splits()),
-                                 Binding::of(ASK_PAIRS_LISTS, lists.heads),
-                                 Binding::of(ASK_PAIRS_ENTRIES, clusters_.entries()),
-                                 Binding::of(ASK_PAIRS_UNLISTED, lists.unlisted),
-                                 Binding::of(ASK_PAIRS_COUNTERS, in.counters), askCounters,
-                                 Binding::of(ASK_PAIRS_ASKED, asked_),
-                                 Binding::of(ASK_PAIRS_BOUNDS, bounds_),
-                                 Binding::sampled(ASK_PAIRS_DEPTH, in.gbuffer.depth),
-                                 in.uniforms.at(slot), pageSlots(), view(slot)});
+            writeListBindings(slot, type, in);
         visibilitySets_.write(
             set,
             {Binding::ofTexels(LIGHT_CORE_TEXELS, in.core), Binding::of(LIGHT_CORE, in.core),
@@ -214,9 +203,45 @@ void Shadows::writeBindings(const FramePlan& plan, const Inputs& in) const
              Binding::of(SHADE_ENTRIES, clusters_.entries()),
              Binding::of(SHADE_WORK, clusters_.surfaces()), shadowCounters,
              // Every binding needs an image, even if none is written.
-             Binding::storage(SHADE_PAIRS, frame.shadowImage ? frame.shadowImage : frame.radiance),
-             this->slots(), pageSlots()});
+             Binding::storage(SHADE_PAIRS, frame.shadowImage ? frame.shadowImage : frame.radiance)},
+            slotBindings());
     }
+}
+
+// Writes the bindings of what finds the triangles that may shadow the lights of lists.
+void Shadows::writeListBindings(uint32_t slot, uint32_t type, const Inputs& in) const
+{
+    using namespace gpu;
+    const uint32_t set = slot * CND_LIGHT_TYPE_COUNT + type;
+    const Clusters::Lists& lists = clusters_.lists(type);
+    const gpu::Buffer& neighbours = module_.occluders->meshes().neighbours();
+    BindingList occluders;
+    occluders.add(occluderBindings(slot));
+    occluders.add(occluderTexels());
+    askSets_.write(set,
+                   {Binding::of(ASK_PAIRS_CLUSTERS, clusters_.clusters()),
+                    Binding::of(ASK_PAIRS_TILES, clusters_.tiles()),
+                    Binding::of(ASK_PAIRS_SPLITS, clusters_.splits()),
+                    Binding::of(ASK_PAIRS_LISTS, lists.heads),
+                    Binding::of(ASK_PAIRS_ENTRIES, clusters_.entries()),
+                    Binding::of(ASK_PAIRS_UNLISTED, lists.unlisted),
+                    Binding::of(ASK_PAIRS_COUNTERS, in.counters),
+                    counters(in.counters, ASK_PAIRS_SHADOW_COUNTERS),
+                    Binding::of(ASK_PAIRS_ASKED, asked_), Binding::of(ASK_PAIRS_BOUNDS, bounds_),
+                    Binding::sampled(ASK_PAIRS_DEPTH, in.gbuffer.depth),
+                    Binding::of(SHADOW_PAGE_PAIRS, pagePairs_), in.uniforms.at(slot), view(slot)});
+    listSets_.write(
+        set,
+        {Binding::of(SHADE_SHAPES, in.shapes), Binding::of(LIST_OCCLUDERS_ASKED, asked_),
+         Binding::of(LIST_OCCLUDERS_BOUNDS, bounds_),
+         // Before there are occluders, a buffer that nothing reads stands for theirs.
+         Binding::of(LIST_OCCLUDERS_NEIGHBOURS, neighbours.get() ? neighbours : pagePairs_),
+         Binding::of(LIST_OCCLUDERS_UNLISTED, lists.unlisted),
+         Binding::of(LIST_OCCLUDERS_COUNTERS, in.counters),
+         Binding::of(SHADE_TILES, clusters_.tiles()), Binding::of(SHADE_LISTS, lists.heads),
+         Binding::ofTexels(LIGHT_CORE_TEXELS, in.core), Binding::of(LIGHT_CORE, in.core),
+         counters(in.counters)},
+        occluders);
 }
 
 bool Shadows::keepsSlots(const FramePlan& p) const noexcept
@@ -248,7 +273,7 @@ void Shadows::recordBegin(const gpu::Frame& f, const FramePlan& p, const gpu::Bu
     parameters.distantStride = keepsSlots(p) ? p.tileCount.x * p.tileCount.y : 0;
     std::memcpy(views_.mapped + f.slot * viewStride, &parameters, sizeof parameters);
     const VkDeviceSize first = kept.slots   ? offsetof(gpu::ShadowCounters, unfinished)
-                               : kept.lists ? offsetof(gpu::ShadowCounters, slots)
+                               : kept.lists ? offsetof(gpu::ShadowCounters, pairs)
                                             : 0;
     f.device.CmdFillBuffer(f.cmd, counters.get(), gpu::SHADOW_COUNTERS_AT + first,
                            sizeof(gpu::ShadowCounters) - first, 0);
@@ -290,7 +315,7 @@ void Shadows::recordListed(const gpu::Frame& f, const FramePlan& p, uint32_t typ
                                             tiles);
     f.barrier();
     module_.kernels.listOccluders.dispatchIndirect(
-        f, listSets_.set(f.slot),
+        f, listSets_.set(setOf(f, type)),
         {.capacity = capacity_,
          .lightType = type,
          .fromHost = module_.kernels.shade.pairKinds(type) == 1},

@@ -49,7 +49,8 @@ public:
                                  uint32_t binding = gpu::SHADE_COUNTERS);
     gpu::Binding view(uint32_t slot) const;
     gpu::Binding slots() const { return gpu::Binding::of(gpu::SHADOW_SLOTS, slots_); }
-    gpu::Binding pageSlots() const { return gpu::Binding::of(gpu::SHADOW_PAGE_SLOTS, pageSlots_); }
+    // The bindings through which kernels find the visible shares of lights in lists.
+    std::array<gpu::Binding, 3> slotBindings() const;
 
     // Tells whether a frame leaves the visibility of all of its lights in the slots. Otherwise its
     // distant lights take those of the lists, or rays of the host find other points each time.
@@ -80,6 +81,7 @@ public:
                       const gpu::LightBatch& batch) const noexcept;
 
 private:
+    void writeListBindings(uint32_t slot, uint32_t type, const Inputs& inputs) const;
     // The offset of each slot is a multiple of this, the largest minUniformBufferOffsetAlignment
     // that Vulkan allows a device.
     static constexpr VkDeviceSize viewStride = 256;
@@ -92,9 +94,9 @@ private:
     const Clusters& clusters_;
     PreparedOccluders prepared_;
     uint32_t capacity_; // of slots that lists may take; those of distant lights follow
-    gpu::Buffer slots_, asked_, bounds_, pageSlots_, points_, views_;
-    gpu::Bindings askSets_, visibilitySets_, countSets_; // per slot and type
-    gpu::Bindings listSets_, polygonSets_;               // per slot
+    gpu::Buffer slots_, asked_, bounds_, pagePairs_, points_, views_;
+    gpu::Bindings askSets_, visibilitySets_, countSets_, listSets_; // per slot and type
+    gpu::Bindings polygonSets_;                                     // per slot
 };
 
 } // namespace candelabra::lighting

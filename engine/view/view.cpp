@@ -33,6 +33,16 @@ uint64_t join(glm::uvec2 lowHigh)
     return uint64_t(lowHigh.y) << 32 | lowHigh.x;
 }
 
+// Returns how many more slots would do for a frame. Lists without room for their records may need a
+// slot for each light.
+uint32_t missingSlots(const gpu::ShadowCounters& c)
+{
+    if (!c.missingPairs && !c.missingSlots)
+        return 0;
+    const uint32_t ofRecords = gpu::divideUp(c.pairs + c.missingPairs, gpu::PAIRS_PER_SLOT);
+    return std::max(c.slots + c.missingSlots + c.missingPairs, ofRecords) - c.slots;
+}
+
 CndLightingViewDesc checkedDesc(const gpu::Device& device, CndLightingViewDesc desc)
 {
     if (desc.structSize != sizeof desc)
@@ -199,11 +209,12 @@ CndResult View::stats(uint32_t slot, CndLightingStats& out) const noexcept
     out.partlyLitPairs = join(shadows.partly);
     out.darkPairs = join(shadows.dark);
     out.shadowSlots = shadows.slots;
-    out.missingShadowSlots = shadows.missingSlots;
+    out.missingShadowSlots = missingSlots(shadows);
     out.unfinishedPairs = shadows.unfinished;
-    out.litSlots = shadows.kinds[gpu::PAIRS_LIT];
-    out.listedSlots = shadows.kinds[gpu::PAIRS_LISTED];
-    out.walkedSlots = shadows.kinds[gpu::PAIRS_WALKED];
+    out.litEntries = shadows.kinds[gpu::PAIRS_LIT];
+    out.hiddenEntries = shadows.kinds[gpu::PAIRS_DARK];
+    out.testedEntries = shadows.kinds[gpu::PAIRS_LISTED];
+    out.walkedEntries = shadows.kinds[gpu::PAIRS_WALKED];
     out.triedProofs = shadows.triedProofs;
     out.wonProofs = shadows.wonProofs;
     FramePasses passes = plans_[slot].passes;

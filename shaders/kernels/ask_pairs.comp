@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Asks for the visibility of every light in the lists of tiles and slices: makes a record and gives
-// out a slot for each (shared/occluder_data.h). The lights of a page have consecutive slots. If a
-// list finds too few, it becomes one that has no page: its pixels walk the light tree. Also finds
-// the bounds of the samples of these clusters.
+// Asks for the visibility of every light in the lists of tiles and slices: makes an AskRecord for
+// each (shared/occluder_data.h). Those of a page are consecutive. If a list finds no room for its
+// records, it becomes one that has no page: its pixels walk the light tree. Also finds the bounds of
+// the samples of these clusters.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -52,14 +52,14 @@ layout(scalar, binding = ASK_PAIRS_UNLISTED) buffer Unlisted
     WorkList unlisted[TILE_WORK_LISTS];
     uint unlistedTiles[];
 };
+layout(scalar, binding = SHADOW_PAGE_PAIRS) writeonly buffer PagePairs
+{
+    uint pagePairs[];
+};
 layout(binding = ASK_PAIRS_DEPTH) uniform texture2D depthImage;
 layout(scalar, binding = ASK_PAIRS_BOUNDS) writeonly buffer Bounds
 {
     SampleBounds bounds[];
-};
-layout(scalar, binding = SHADOW_PAGE_SLOTS) writeonly buffer PageSlots
-{
-    uint pageSlots[];
 };
 
 #define ASKED_PAIRS ASK_PAIRS_ASKED
@@ -76,33 +76,40 @@ void appendUnlisted(uint tile)
     APPEND_TILE(unlisted, unlistedTiles, tile, UNLISTED_BITS, ANY_HEIGHT)
 }
 
-shared uint firstSlot; // of the present page
+shared uint firstRecord; // of the present page
 
-// Takes `count` slots and returns the first. Sets up the groups of list_occluders that the records
-// need.
-uint takeSlots(uint count)
+// Returns whether there is room for all records before `end`.
+bool haveRoom(uint end)
+{
+    return end <= PAIRS_PER_SLOT * params.capacity;
+}
+
+// Takes room for `count` records and returns the first. Sets up the groups of list_occluders that
+// they need.
+uint takeRecords(uint count)
 {
     const uint first = atomicAdd(asked.taken, count);
     const uint end = first + count;
-    if (end <= params.capacity) {
+    if (haveRoom(end)) {
         atomicMax(asked.groups[1], (end - asked.first + ASK_ROW - 1u) / ASK_ROW);
         atomicMax(asked.written, end);
-        atomicMax(shadowCounters.slots, end);
+        atomicAdd(shadowCounters.pairs, count);
     } else
-        atomicAdd(shadowCounters.missingSlots, count);
+        atomicAdd(shadowCounters.missingPairs, count);
     return first;
 }
 
-void writeRecord(uint slot, uint tile, uint cluster, uint light)
+void writeRecord(uint pair, uint tile, uint cluster, uint light)
 {
-    const uint at = placeOfRecord(slot);
+    const uint at = placeOfPair(pair);
     askedWords[at] = tile;
     askedWords[at + 1u] = cluster;
     askedWords[at + 2u] = light;
 }
 
-// The lowest of each coordinate, of its negative, and of the own distance, as orderedBits().
-shared uint least[7];
+// The lowest of each coordinate, of its negative, of the own distance, and of its negative, as
+// orderedBits().
+shared uint least[8];
 
 // All lanes of the group must call it. isSample: false: the lane has no value.
 void findLeast(uint what, float value, bool isSample)
@@ -116,7 +123,7 @@ void findLeast(uint what, float value, bool isSample)
 void findBounds(uint tile, uint cluster)
 {
     const uint lane = gl_LocalInvocationIndex;
-    if (lane < 7u)
+    if (lane < 8u)
         least[lane] = 0xFFFFFFFFu;
     barrier();
     const uvec2 pixel = firstPixelOfTile(tile, frameParams.size.x) + pixelOfLane(lane);
@@ -131,13 +138,16 @@ void findBounds(uint tile, uint cluster)
         findLeast(3u + k, -inTree[k], isSample);
     }
     const float depthError = depthErrorAt(pixel, depth, position);
-    findLeast(6u, ownSurfaceDistance(depthError, position, 0.0, mat3(0.0), vec3(0.0)), isSample);
+    const float own = ownSurfaceDistance(depthError, position, 0.0, mat3(0.0), vec3(0.0));
+    findLeast(6u, own, isSample);
+    findLeast(7u, -own, isSample);
     barrier();
     if (lane == 0u)
         bounds[cluster] = SampleBounds(
             vec3(floatOfOrdered(least[0]), floatOfOrdered(least[1]), floatOfOrdered(least[2])),
             floatOfOrdered(least[6]),
-            -vec3(floatOfOrdered(least[3]), floatOfOrdered(least[4]), floatOfOrdered(least[5])));
+            -vec3(floatOfOrdered(least[3]), floatOfOrdered(least[4]), floatOfOrdered(least[5])),
+            -floatOfOrdered(least[7]));
 }
 
 // Returns the first page of the list of a tile (below params.tileCount) or slice, and its cluster.
@@ -165,16 +175,16 @@ void askForLights(uint cluster, uint page)
         const uint header = entries[page * PAGE_WORDS];
         const uint count = lightsOfPage(header);
         if (lane == 0u) {
-            firstSlot = takeSlots(count);
-            pageSlots[page] = firstSlot;
+            firstRecord = takeRecords(count);
+            pagePairs[page] = firstRecord;
         }
         barrier();
-        const uint first = firstSlot;
-        fits = fits && first + count <= params.capacity;
+        const uint first = firstRecord;
+        fits = fits && haveRoom(first + count);
         if (fits && lane < count)
             writeRecord(first + lane, tile, cluster, entries[page * PAGE_WORDS + 1u + lane]);
         page = pageAfter(header);
-        barrier(); // before firstSlot is written again
+        barrier(); // before firstRecord is written again
     } while (page != 0u);
     if (!fits && lane == 0u) {
         lists[cluster] = LIST_UNLISTED;

@@ -23,10 +23,7 @@ layout(scalar, binding = SHADOW_SLOTS) readonly buffer Slots
 {
     uint slots[];
 };
-layout(scalar, binding = SHADOW_PAGE_SLOTS) readonly buffer PageSlots
-{
-    uint pageSlots[];
-};
+#include "kernels/common/slot_of_entry.glsl"
 layout(scalar, binding = SHADE_COUNTERS) buffer Counters
 {
     ShadowCounters counters;
@@ -37,13 +34,20 @@ struct Counts {
     uint asked, partly, dark;
 };
 
-void addSlots(inout Counts counts, uint first, uint count)
+void addSlot(inout Counts counts, uint slot)
+{
+    const uint shares = slots[slot * SLOT_WORDS + gl_LocalInvocationIndex];
+    counts.asked += shares != SHARES_UNASKED ? 1u : 0u;
+    counts.dark += shares == 0u ? 1u : 0u;
+    counts.partly += shares != SHARES_UNASKED && shares != SHARES_LIT && shares != 0u ? 1u : 0u;
+}
+
+void addPage(inout Counts counts, uint page, uint count)
 {
     for (uint i = 0u; i < count; ++i) {
-        const uint shares = slots[(first + i) * SLOT_WORDS + gl_LocalInvocationIndex];
-        counts.asked += shares != SHARES_UNASKED ? 1u : 0u;
-        counts.dark += shares == 0u ? 1u : 0u;
-        counts.partly += shares != SHARES_UNASKED && shares != SHARES_LIT && shares != 0u ? 1u : 0u;
+        const uint slot = slotOfEntry(page * PAGE_WORDS + 1u + i);
+        if (slot < SLOT_DARK)
+            addSlot(counts, slot);
     }
 }
 
@@ -57,12 +61,13 @@ void main()
     if (depth != frameParams.clearDepth) {
         uint page = 0u;
         if (params.isDistant != 0u)
-            addSlots(counts, params.firstSlot + tile * params.batch.count, params.batch.count);
+            for (uint i = 0u; i < params.batch.count; ++i)
+                addSlot(counts, params.firstSlot + tile * params.batch.count + i);
         else
             page = lists[clusterOf(tile, depth)];
         while (page != LIST_EMPTY && page != LIST_UNLISTED && page != LIST_LONG) {
             const uint header = entries[page * PAGE_WORDS];
-            addSlots(counts, pageSlots[page], lightsOfPage(header));
+            addPage(counts, page, lightsOfPage(header));
             page = pageAfter(header);
         }
         if (params.writesImage != 0u)

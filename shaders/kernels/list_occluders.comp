@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lists, for each pair of cluster and light that asks, the triangles that may shadow samples of the
-// cluster. pair_visibility then tests these alone, and nothing if there are none. Pairs with many
-// triangles get no list, and their pixels walk through the trees.
+// cluster, so that pixels test these alone. Pairs with many triangles get no list, and their pixels
+// walk through the trees. A pair needs no slot if it has no triangles, or if those of one instance are
+// proven to hide the light (lib/visibility/dark_proof.glsl). If there is no slot for another pair, the
+// cluster's pixels walk the light tree.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
@@ -22,27 +24,51 @@ layout(scalar, binding = LIST_OCCLUDERS_BOUNDS) readonly buffer Bounds
 {
     SampleBounds bounds[];
 };
-layout(scalar, binding = SHADE_COUNTERS) buffer Counters
+layout(scalar, binding = SHADE_COUNTERS) buffer ShadowCounterBuffer
 {
     ShadowCounters shadowCounters;
+};
+layout(scalar, binding = LIST_OCCLUDERS_COUNTERS) buffer Counters
+{
+    LightingCounters counters;
+};
+layout(scalar, binding = LIST_OCCLUDERS_NEIGHBOURS) readonly buffer Neighbours
+{
+    OccluderNeighbours neighbours[];
+};
+layout(scalar, binding = SHADE_TILES) buffer Tiles
+{
+    TileClusters tiles[];
+};
+layout(scalar, binding = SHADE_LISTS) buffer Lists
+{
+    uint lists[];
+};
+layout(scalar, binding = LIST_OCCLUDERS_UNLISTED) buffer Unlisted
+{
+    WorkList unlisted[TILE_WORK_LISTS];
+    uint unlistedTiles[];
 };
 #define ASKED_PAIRS LIST_OCCLUDERS_ASKED
 #define ASKED_ACCESS
 #include "kernels/common/asked_pairs.glsl"
 #include "kernels/common/light_stream.glsl"
+#include "kernels/common/tile_work_lists.glsl"
 #include "shading/facet_shape.glsl"
 #include "shading/occluder_buffers.glsl"
 #include "shading/occluder_leaf.glsl"
 // It needs pointTable() of the buffers.
 #include "lib/visibility/shaft.glsl"
 
-// Items of a pair, at most: with 31 the hall is no faster (DECISIONS 81).
-const uint MAX_ITEMS = 16u;
+// Items of a pair, at most (DECISIONS 81).
+const uint MAX_ITEMS = 32u;
 // Node steps of a lane, at most, so that all loops stay below the 65,535 turns of llvmpipe.
 const uint MAX_TURNS = 4096u;
 const float MAX_ROUNDING = 4e-3; // of the light coordinates of pairs that are listed (roundingOf)
-shared uvec2 foundItems[MAX_ITEMS * LIST_OCCLUDERS_GROUP];
+shared uint foundItems[MAX_ITEMS * LIST_OCCLUDERS_GROUP];
 #define FOUND_ITEM(i) foundItems[(i)*LIST_OCCLUDERS_GROUP + gl_LocalInvocationIndex]
+#define PROOF_LEAF(i) FOUND_ITEM(i)
+#include "shading/dark_triangles.glsl"
 
 // A walk through the trees with the shaft of a pair.
 struct ShaftWalk {
@@ -55,6 +81,7 @@ struct ShaftWalk {
     uint instances, triangles; // that were found and have not been visited, as OccluderNode::leaf
     uint kept;                 // triangles of the present leaf that count, as OccluderNode::leaf
     uint items;                // that were found
+    uint listed;               // the last instance among them
 };
 
 // Tells whether the next step is to the next node of the tree.
@@ -103,6 +130,14 @@ void changeTree(inout ShaftWalk w, ShaftEnds ends, uint layers, uint ignored)
     w.shaft = shaftIn(ends, localFromTree, translation, anisotropy, root.low, root.high);
 }
 
+// Also counts items that there is no room for.
+void addItem(inout ShaftWalk w, uint item)
+{
+    if (w.items < MAX_ITEMS)
+        FOUND_ITEM(w.items) = item;
+    ++w.items;
+}
+
 // Tests a triangle. After the last one of a leaf, those that count become an item.
 void visitTriangle(inout ShaftWalk w, ShaftEnds ends)
 {
@@ -121,9 +156,10 @@ void visitTriangle(inout ShaftWalk w, ShaftEnds ends)
         w.kept = (first << OCCLUDER_LEAF_SHIFT) + (at + 1u - first);
     }
     if (leafCount(w.triangles) == 0u && leafCount(w.kept) != 0u) {
-        if (w.items < MAX_ITEMS)
-            FOUND_ITEM(w.items) = uvec2(w.instance, w.kept);
-        ++w.items;
+        if (w.instance != w.listed)
+            addItem(w, ITEM_IS_INSTANCE | w.instance);
+        addItem(w, w.kept);
+        w.listed = w.instance;
         w.kept = 0u;
     }
 }
@@ -150,6 +186,7 @@ bool findItems(ShaftEnds ends, uint layers, uint ignored, bool walks, out uint c
     w.node = w.end = w.nextOfInstances = 0u;
     w.firstNode = w.firstTriangle = w.instance = 0u;
     w.instances = w.triangles = w.kept = w.items = 0u;
+    w.listed = ITEM_IS_INSTANCE; // no instance has this index
     uint turns = 0u;
     bool left = walks;
     do { // This loop ends in all lanes at once: llvmpipe would lose nodes if lanes left it one by one.
@@ -207,6 +244,45 @@ bool reachesLight(uint light, FacetShape given, inout ShaftEnds ends)
     return isFar && sine > 0.0 && ends.rounding < MAX_ROUNDING;
 }
 
+// Returns whether the triangles of one instance in the list hide the light from all samples. Those
+// that are not in the list have the light and all samples on one side, or are beside the shaft. tries:
+// false: the lane only waits for others.
+bool isProvenDark(uint light, float ownDistance, ShaftEnds ends, uint count, bool tries)
+{
+    const mat3 treeFromView = transpose(shadowView.viewFromTree);
+    const vec4 centreRadius = lightCentre(light);
+    LightShape shape = lightShapes[light]; // not the facet's: that of the polygon
+    shape.axisU = treeFromView * shape.axisU;
+    shape.axisV = treeFromView * shape.axisV;
+    InstanceProof p;
+    beginProof(p);
+    const bool inShaft =
+        shaftTo(ends.halfBox, params.lightType, treeFromView * centreRadius.xyz - ends.middle,
+                centreRadius.w, shape, p.shaft);
+    uint at = 0u;
+    bool dark = false, left = tries && inShaft && count != 0u;
+    do { // This loop ends in all lanes at once, as in findItems().
+        if (left) {
+            const OccluderInstance o = occluderInstance(FOUND_ITEM(at) & ~ITEM_IS_INSTANCE);
+            const uint first = at + 1u;
+            do
+                ++at;
+            while (at < count && (FOUND_ITEM(at) & ITEM_IS_INSTANCE) == 0u);
+            setInstance(p, o, treeFromView * o.viewFromLocal,
+                        o.localFromView * shadowView.viewFromTree, ends.middle,
+                        ownDistance);
+            uvec2 forward, backward;
+            p.failed = at - first > PROOF_LEAVES;
+            testTriangles(p, first, at, forward, backward);
+            p.failed = p.failed || p.crossings == 0u;
+            testEdges(p, first, forward, backward);
+            dark = isProven(p);
+            left = !dark && at < count;
+        }
+    } while (subgroupAny(left));
+    return dark;
+}
+
 // Adds n of each lane to a counter. Returns the value before, plus n of the lanes before this one.
 #define TAKE_PLACES(counter, n, place)                                                             \
     {                                                                                              \
@@ -219,20 +295,24 @@ bool reachesLight(uint light, FacetShape given, inout ShaftEnds ends)
 
 void writeItems(uint first, uint count)
 {
-    for (uint i = 0u; i < count; ++i) {
-        const uvec2 item = FOUND_ITEM(i);
-        askedWords[placeOfItem(first + i)] = item.x;
-        askedWords[placeOfItem(first + i) + 1u] = item.y;
-    }
+    for (uint i = 0u; i < count; ++i)
+        askedWords[placeOfItem(first + i)] = FOUND_ITEM(i);
+}
+
+// Counts a pair of a kind, if it is of the kind.
+void countKind(uint kind, bool isOfKind)
+{
+    const uint all = subgroupAdd(isOfKind ? 1u : 0u);
+    if (subgroupElect() && all != 0u)
+        atomicAdd(shadowCounters.kinds[kind], all);
 }
 
 // Appends the slot to those of a kind, if it is of the kind.
 void appendTo(uint kind, bool isOfKind, uint slot)
 {
-    const uint n = isOfKind ? 1u : 0u;
-    uint place, counted;
-    TAKE_PLACES(asked.kinds[kind].count, n, place)
-    TAKE_PLACES(shadowCounters.kinds[kind], n, counted)
+    countKind(kind, isOfKind);
+    uint place;
+    TAKE_PLACES(asked.kinds[kind].count, isOfKind ? 1u : 0u, place)
     if (isOfKind) {
         askedWords[placeOfSlot(kind, place)] = slot;
         if (place % ASK_ROW == 0u)
@@ -240,12 +320,54 @@ void appendTo(uint kind, bool isOfKind, uint slot)
     }
 }
 
+// Takes a slot for the pair, if it needs one. Returns false if there is none.
+bool takeSlot(AskRecord ask, bool needs, out uint slot)
+{
+    TAKE_PLACES(asked.slots, needs ? 1u : 0u, slot)
+    const bool has = needs && slot < params.capacity;
+    const uint taken = subgroupAdd(has ? 1u : 0u), missing = subgroupAdd(needs && !has ? 1u : 0u);
+    if (subgroupElect()) {
+        if (taken != 0u)
+            atomicAdd(shadowCounters.slots, taken);
+        if (missing != 0u)
+            atomicAdd(shadowCounters.missingSlots, missing);
+    }
+    if (needs && !has && atomicExchange(lists[ask.cluster], LIST_UNLISTED) != LIST_UNLISTED) {
+        atomicAdd(counters.unlistedClusters, 1u);
+        APPEND_TILE(unlisted, unlistedTiles, ask.tile, UNLISTED_BITS, ANY_HEIGHT)
+    }
+    return has;
+}
+
+// Gives the pair its place among those of its kind. count: of its items, 0: they are not known.
+void writePair(uint pair, AskRecord ask, bool exists, bool isLit, bool isDark, uint count)
+{
+    const bool needsSlot = exists && !isLit && !isDark;
+    uint slot, first;
+    const bool hasSlot = takeSlot(ask, needsSlot, slot);
+    const uint wanted = hasSlot ? count : 0u;
+    TAKE_PLACES(asked.items, wanted, first)
+    const bool isListed = wanted != 0u && first + wanted <= ITEMS_PER_SLOT * params.capacity;
+    if (isListed)
+        writeItems(first, wanted);
+    if (hasSlot) {
+        askedWords[placeOfRecord(slot)] = pair;
+        askedWords[placeOfRecord(slot) + 1u] = (first << ITEM_COUNT_BITS) + wanted;
+    }
+    if (exists)
+        askedWords[placeOfPair(pair) + PAIR_SLOT] = isLit ? SLOT_LIT : isDark ? SLOT_DARK : slot;
+    appendTo(PAIRS_WALKED, hasSlot && !isListed, slot);
+    appendTo(PAIRS_LISTED, isListed, slot);
+    countKind(PAIRS_LIT, isLit);
+    countKind(PAIRS_DARK, isDark);
+}
+
 void main()
 {
-    const uint slot = asked.first + gl_WorkGroupID.y * ASK_ROW +
+    const uint pair = asked.first + gl_WorkGroupID.y * ASK_ROW +
                       gl_WorkGroupID.x * LIST_OCCLUDERS_GROUP + gl_LocalInvocationIndex;
-    const bool exists = slot < asked.written;
-    const AskRecord ask = askRecord(exists ? slot : asked.first);
+    const bool exists = pair < asked.written;
+    const AskRecord ask = askRecord(exists ? pair : asked.first);
     const FacetShape given = facetShape(ask.light, params.lightType);
     const SampleBounds samples = bounds[ask.cluster];
     ShaftEnds ends;
@@ -254,23 +376,13 @@ void main()
     ends.ownDistance = samples.ownDistance;
     const bool reaches = reachesLight(ask.light, given, ends);
     const bool fromHost = params.fromHost != 0u;
-    const bool unshadowed = (given.shape.flags & LIGHT_UNSHADOWED) != 0u;
+    const bool unshadowed = !fromHost && (given.shape.flags & LIGHT_UNSHADOWED) != 0u;
     const bool searches = exists && reaches && !fromHost && !unshadowed;
     uint count;
     const bool found =
         findItems(ends, shadowView.layers, ignoredLayers(given.shape.flags), searches, count);
     const bool isKnown = searches && found;
-    const uint wanted = isKnown ? count : 0u;
-    uint first;
-    TAKE_PLACES(asked.items, wanted, first)
-    const bool fits = first + wanted <= ITEMS_PER_SLOT * params.capacity;
-    const bool isListed = wanted != 0u && fits;
-    const bool isLit = (unshadowed && !fromHost) || (isKnown && count == 0u);
-    if (isListed) {
-        writeItems(first, wanted);
-        askedWords[placeOfRecord(slot) + RECORD_ITEMS] = (first << ITEM_COUNT_BITS) + wanted;
-    }
-    appendTo(PAIRS_WALKED, exists && !isListed && !isLit, slot);
-    appendTo(PAIRS_LISTED, exists && isListed, slot);
-    appendTo(PAIRS_LIT, exists && isLit, slot);
+    const bool isLit = exists && (unshadowed || (isKnown && count == 0u));
+    const bool isDark = isProvenDark(ask.light, samples.largestOwnDistance, ends, count, isKnown);
+    writePair(pair, ask, exists, isLit, isDark, isKnown ? count : 0u);
 }

@@ -37,26 +37,31 @@ layout(scalar, binding = SHADE_COUNTERS) buffer Counters
 
 layout(constant_id = SPEC_PAIR_KIND) const uint pairKind = PAIRS_WALKED;
 
+SlotRecord slotRecord(uint slot)
+{
+    const uint at = placeOfRecord(slot);
+    return SlotRecord(askedWords[at], askedWords[at + 1u]);
+}
+
 #ifdef CANDELABRA_VISIBLE_POINTS
-uint listedShares(AskRecord ask, ShadingPoint p, float depthError, bool asks)
+uint listedShares(uint light, uint items, ShadingPoint p, float depthError, bool asks)
 {
     return SHARES_UNASKED; // no pair is listed
 }
 #else
-OccluderItem occluderItem(uint item)
+uint occluderItem(uint item)
 {
-    const uint at = placeOfItem(item);
-    return OccluderItem(askedWords[at], askedWords[at + 1u]);
+    return askedWords[placeOfItem(item)];
 }
 #include "shading/listed_occluders.glsl"
 
-// Returns the visible shares of a pair that is listed.
-uint listedShares(AskRecord ask, ShadingPoint p, float depthError, bool asks)
+// Returns the visible shares of a pair that is listed. items: as in SlotRecord.
+uint listedShares(uint light, uint items, ShadingPoint p, float depthError, bool asks)
 {
-    const uvec2 seen = listedPoints(occluderQuery(ask.light, p, depthError), treeSpace(),
-                                    ask.items >> ITEM_COUNT_BITS,
-                                    ask.items & ((1u << ITEM_COUNT_BITS) - 1u), asks);
-    return asks ? sharesOfPoints(ask.light, p, seen) : SHARES_UNASKED;
+    const uvec2 seen =
+        listedPoints(occluderQuery(light, p, depthError), items >> ITEM_COUNT_BITS,
+                     items & ((1u << ITEM_COUNT_BITS) - 1u), asks);
+    return asks ? sharesOfPoints(light, p, seen) : SHARES_UNASKED;
 }
 #endif
 
@@ -64,7 +69,7 @@ void main()
 {
     const bool ofBatch = params.batch.count != 0u;
     AskRecord ask;
-    uint slot;
+    uint slot, items = 0u;
     uvec2 pixel = pixelOfLane(gl_LocalInvocationIndex);
     if (ofBatch) {
         const uint tile = gl_WorkGroupID.y * params.tileCountX + gl_WorkGroupID.x;
@@ -76,7 +81,9 @@ void main()
         if (at >= asked.kinds[pairKind].count)
             return;
         slot = askedWords[placeOfSlot(pairKind, at)];
-        ask = askRecord(slot);
+        const SlotRecord record = slotRecord(slot);
+        ask = askRecord(record.pair);
+        items = record.items;
         pixel += firstPixelOfTile(ask.tile, frameParams.size.x);
     }
     const bool inside = all(lessThan(pixel, frameParams.size));
@@ -89,10 +96,8 @@ void main()
     const float depthError = depthErrorAt(pixel, depth, p.position);
     bool isFinished = true;
     uint shares;
-    if (pairKind == PAIRS_LIT)
-        shares = asks ? SHARES_LIT : SHARES_UNASKED;
-    else if (pairKind == PAIRS_LISTED)
-        shares = listedShares(ask, p, depthError, asks);
+    if (pairKind == PAIRS_LISTED)
+        shares = listedShares(ask.light, items, p, depthError, asks);
     else
         shares = lightVisibility(ask.light, p, depthError, asks, isFinished);
     slots[slot * SLOT_WORDS + gl_LocalInvocationIndex] = shares;

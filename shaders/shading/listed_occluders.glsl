@@ -7,28 +7,34 @@
 
 #include "shading/occluder_walk.glsl"
 
-// Returns what visiblePoints() does, for the `count` items from `first` on, at least one. All lanes
-// of the group have the same items.
-uvec2 listedPoints(OccluderQuery q, TreeSpace tree, uint first, uint count, bool asks)
+// Returns the points of the facet that no triangle of the `count` items from `first` on hides. The
+// first item has an instance. All lanes of the group have the same items.
+uvec2 listedPoints(OccluderQuery q, uint first, uint count, bool asks)
 {
     OccluderWalk w = walkFromRoot();
     uint at = first, turns = 0u;
-    OccluderItem item = occluderItem(at);
+    uint item = occluderItem(at);
     bool walks = asks;
     do {
-        const uint instance = item.instance;
-        w.leaf = (instance << OCCLUDER_LEAF_SHIFT) + 1u;
-        changeTree(w, q, tree, walks);
+        const uint instance = item & ~ITEM_IS_INSTANCE;
+        const OccluderInstance o = occluderInstance(instance);
+        const Facet f = facetOf(q); // again for each instance, because it would occupy registers
+        setFacet(w, f);
+        const vec3 position = setInstance(w, q, instance, o);
+        setSpace(w.space, f, facetVectors(f, o.localFromView), occluderNode(o.firstNode),
+                 o.viewFromLocal, position);
+        ++at;
+        item = occluderItem(at);
         do {
             do {
-                if (w.walks && !isEmpty(w.lit))
-                    w.lit &= ~pointsHiddenBy(w, leafFirst(item.triangles), turns);
-                item.triangles = withoutFirst(item.triangles);
-            } while (leafCount(item.triangles) != 0u);
+                if (walks && !isEmpty(w.lit))
+                    w.lit &= ~pointsHiddenBy(w, leafFirst(item), turns);
+                item = withoutFirst(item);
+            } while (leafCount(item) != 0u);
             ++at;
             if (at < first + count)
                 item = occluderItem(at);
-        } while (at < first + count && item.instance == instance);
+        } while (at < first + count && (item & ITEM_IS_INSTANCE) == 0u);
         walks = walks && !isEmpty(w.lit);
     } while (at < first + count && subgroupAny(walks));
     return w.lit;

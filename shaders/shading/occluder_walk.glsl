@@ -95,29 +95,53 @@ uvec2 litPointsIn(OccluderWalk w, OccluderNode node)
                              (node.high - w.space.position) + w.space.slack);
 }
 
-// Sets what depends on the space of the tree that the walk has come to. In a mesh, the cone holds only
-// the points that the mesh may hide; if it hides none, the lane does not walk in it.
+void setFacet(inout OccluderWalk w, Facet f)
+{
+    w.lit &= f.members;
+    w.shape = f.shape;
+    w.front = f.front;
+}
+
+// Sets what tests of triangles need in the space of a tree. vectors: those of the facet there.
+void setSpace(inout WalkSpace s, Facet f, FacetVectors vectors, OccluderNode root,
+              mat3 viewFromLocal, vec3 position)
+{
+    s.coordinates = inSpaceOf(lightCoordinates(f), viewFromLocal);
+    s.position = position;
+    const vec3 farthest = max(abs(root.low - position), abs(root.high - position));
+    s.slack = BOX_SLACK * (1.0 + norm1(position)) +
+              roundingOf(vectors, s.coordinates) * norm1(farthest);
+    s.whole = facetCone(f, vectors, ALL_POINTS);
+}
+
+// Enters the space of a tree. In a mesh, the cone holds only the points that the mesh may hide; if it
+// hides none, the lane does not walk in it.
 void enterSpace(inout OccluderWalk w, OccluderQuery q, mat3 viewFromLocal, mat3 localFromView,
                 vec3 position)
 {
     const Facet f = facetOf(q);
     const FacetVectors vectors = facetVectors(f, localFromView);
-    w.lit &= f.members;
-    w.shape = f.shape;
-    w.front = f.front;
-    w.space.coordinates = inSpaceOf(lightCoordinates(f), viewFromLocal);
-    w.space.position = position;
+    setFacet(w, f);
     const OccluderNode root = occluderNode(w.firstNode);
     w.end = root.skip;
-    const vec3 farthest = max(abs(root.low - position), abs(root.high - position));
-    w.space.slack = BOX_SLACK * (1.0 + norm1(position)) +
-                    roundingOf(vectors, w.space.coordinates) * norm1(farthest);
+    setSpace(w.space, f, vectors, root, viewFromLocal, position);
     const uvec2 points = isEmpty(w.lit) ? uvec2(0u) : litPointsIn(w, root);
     w.walks = !isEmpty(points);
-    w.space.whole = facetCone(f, vectors, ALL_POINTS);
-    w.space.cone = facetCone(f, vectors,
-                             w.inMesh && !isEmpty(points) ? pointBounds(pointCount, f.shape, points)
-                                                          : ALL_POINTS);
+    w.space.cone = w.space.whole;
+    if (w.inMesh && w.walks)
+        w.space.cone = facetCone(f, vectors, pointBounds(pointCount, f.shape, points));
+}
+
+// Sets the instance whose triangles are tested. Returns the position of the receiver there.
+vec3 setInstance(inout OccluderWalk w, OccluderQuery q, uint at, OccluderInstance instance)
+{
+    w.instance = at;
+    w.firstNode = instance.firstNode;
+    w.firstTriangle = instance.firstTriangle;
+    const vec3 position = instance.localFromView * q.position + instance.viewInLocal;
+    w.space.ownDistance = ownSurfaceDistance(q.depthError, q.position, instance.surfaceError,
+                                             instance.viewFromLocal, position);
+    return position;
 }
 
 // Enters the first instance of the leaf or, if the leaf is empty, returns to the tree over instances.
@@ -134,18 +158,13 @@ void changeTree(inout OccluderWalk w, OccluderQuery q, TreeSpace tree, bool asks
     w.space.ownDistance = 0.0;
     bool counts = asks;
     if (w.inMesh) {
-        w.instance = leafFirst(w.leaf);
+        const OccluderInstance instance = occluderInstance(leafFirst(w.leaf));
+        position = setInstance(w, q, leafFirst(w.leaf), instance);
         w.leaf = withoutFirst(w.leaf);
-        const OccluderInstance instance = occluderInstance(w.instance);
-        w.firstNode = instance.firstNode;
-        w.firstTriangle = instance.firstTriangle;
         counts = asks && (instance.flags & q.layers) != 0u && (instance.flags & q.ignored) == 0u;
         w.node = 0u;
         viewFromLocal = instance.viewFromLocal;
         localFromView = instance.localFromView;
-        position = localFromView * q.position + instance.viewInLocal;
-        w.space.ownDistance = ownSurfaceDistance(q.depthError, q.position, instance.surfaceError,
-                                                 viewFromLocal, position);
     }
     enterSpace(w, q, viewFromLocal, localFromView, position);
     w.walks = w.walks && counts;

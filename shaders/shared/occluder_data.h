@@ -99,7 +99,8 @@ const uint SHADOW_POINTS = 28u; // texel buffer: engine/tables/point_table.h
 const uint SHADOW_VIEW = 29u;
 // Bindings of the kernels that read or write visible shares.
 const uint SHADOW_SLOTS = 30u;
-const uint SHADOW_PAGE_SLOTS = 31u; // per page of the entry buffer: the slot of its first light
+const uint SHADOW_PAGE_PAIRS = 31u; // per page of the entry buffer: AskRecord of its first light
+const uint SHADOW_ASKED = 36u;      // AskedPairs, then AskRecords
 // In place of SHADOW_VIEW in the forward set of modules whose hosts have rays: shaders with rays
 // fit that set alone, and shaders that walk fit the others.
 const uint SHADOW_VIEW_OF_RAYS = 35u;
@@ -113,56 +114,70 @@ const uint SPEC_VISIBILITY_POINTS = 9u;
 // How many turns of loops the walks of one invocation may take (occluder_walk.glsl); 0: no limit.
 const uint SPEC_WALK_TURNS = 10u;
 
-// A pair of cluster and light whose visibility is asked for. The pair's slot has the same index: a
-// word for each pixel of the cluster's tile, which holds the visible shares of the diffuse lobe
-// (low 16 bits) and of the specular lobe in units of 1 / SHARE_UNIT. So a share of 1 is exact.
+// A pair of cluster and light whose visibility is asked for.
 struct AskRecord {
     uint tile;
     uint cluster;
     uint light;
-    uint items; // PAIRS_LISTED: index of the first item << ITEM_COUNT_BITS, plus how many there are
+    uint slot; // or SLOT_LIT or SLOT_DARK; list_occluders writes it
 };
 GPU_SIZE(AskRecord, 16)
-const uint RECORD_WORDS = 4u;
-const uint RECORD_ITEMS = 3u; // word of AskRecord::items
-const uint ITEM_COUNT_BITS = 5u;
-// Triangles that may shadow samples of a cluster.
-struct OccluderItem {
-    uint instance;
-    uint triangles; // as OccluderNode::leaf
+const uint PAIR_WORDS = 4u;
+const uint PAIR_SLOT = 3u; // word of AskRecord::slot
+// The pair that a slot belongs to. A slot has a word for each pixel of the cluster's tile, which
+// holds the visible shares of the diffuse lobe (low 16 bits) and of the specular lobe in units of
+// 1 / SHARE_UNIT. So a share of 1 is exact.
+struct SlotRecord {
+    uint pair;  // index of its AskRecord
+    uint items; // PAIRS_LISTED: index of the first item << ITEM_COUNT_BITS, plus their number
 };
-GPU_SIZE(OccluderItem, 8)
-const uint ITEM_WORDS = 2u;
-// How pair_visibility finds a pair, as list_occluders decides: specialisation constant.
+GPU_SIZE(SlotRecord, 8)
+const uint RECORD_WORDS = 2u;
+const uint ITEM_COUNT_BITS = 6u;
+// In place of the slots of pairs that need none: all pixels see all of the light, or nothing.
+const uint SLOT_LIT = 0xFFFFFFFFu;
+const uint SLOT_DARK = 0xFFFFFFFEu;
+// An item has the triangles of a leaf that may shadow samples of a cluster, as OccluderNode::leaf,
+// or this bit and the instance of the items that follow it.
+const uint ITEM_IS_INSTANCE = 0x80000000u;
+// The kinds of pairs, as list_occluders finds them. Those below SLOT_KINDS have slots, and their
+// kind is a specialisation constant of pair_visibility.
 const uint SPEC_PAIR_KIND = 11u;
 const uint PAIRS_WALKED = 0u; // from the root of the tree over instances
 const uint PAIRS_LISTED = 1u; // the pair's items hold all triangles that count
-const uint PAIRS_LIT = 2u;    // no triangle shadows the cluster
-const uint PAIR_KINDS = 3u;
-// The head of the buffer of asked pairs. After it are the AskRecords, for each kind the slots of
-// its pairs, and the items (kernels/common/asked_pairs.glsl).
+const uint SLOT_KINDS = 2u;
+const uint PAIRS_LIT = 2u;  // no triangle shadows the cluster
+const uint PAIRS_DARK = 3u; // an instance is proven to hide the light from the whole cluster
+const uint PAIR_KINDS = 4u;
+// The head of the buffer of asked pairs. After it are the AskRecords, the SlotRecords, for each
+// kind with slots these slots, and the items (kernels/common/asked_pairs.glsl).
 struct AskedPairs {
     uint groups[3];             // of list_occluders, in rows, as WorkList::groupsX, Y and Z
     uint items;                 // also counts items that there was no room for
-    WorkList kinds[PAIR_KINDS]; // a group per pair
-    uint first;                 // first slot of the light type
-    // The next two members count for all light types that have asked so far in the frame. Those
-    // above are reset for each type.
-    uint written; // all records before this slot are written
-    uint taken;   // slots that were asked for, also beyond the capacity
+    WorkList kinds[SLOT_KINDS]; // a group per slot
+    uint first;                 // first AskRecord of the light type
+    // The next members count for all light types that have asked so far in the frame. Those above
+    // are reset for each type.
+    uint written; // AskRecords before this one are written
+    uint taken;   // AskRecords that were asked for, also those beyond the capacity
+    uint slots;   // that were asked for, also those beyond the capacity
 };
-GPU_SIZE(AskedPairs, 88)
-const uint ITEMS_PER_SLOT = 4u; // for which there is room
+GPU_SIZE(AskedPairs, 72)
+// For which there is room.
+const uint PAIRS_PER_SLOT = 4u;
+const uint ITEMS_PER_SLOT = 8u;
 // Words per slot, after AskedPairs.
-const uint ASKED_WORDS = RECORD_WORDS + PAIR_KINDS + ITEM_WORDS * ITEMS_PER_SLOT;
+const uint ASKED_WORDS = PAIR_WORDS * PAIRS_PER_SLOT + RECORD_WORDS + SLOT_KINDS + ITEMS_PER_SLOT;
 
 // Bounds of the samples of a cluster in the axes of the world, relative to the eye, in metres.
 struct SampleBounds {
     vec3 low;
-    float ownDistance; // that part of the least ownSurfaceDistance() that depends on no instance
+    // That part of the least and the largest ownSurfaceDistance() that depends on no instance.
+    float ownDistance;
     vec3 high;
+    float largestOwnDistance;
 };
-GPU_SIZE(SampleBounds, 28)
+GPU_SIZE(SampleBounds, 32)
 const uint SLOT_WORDS = 64u;
 const uint ASK_ROW = 1024u; // pairs that a row of groups takes
 // Lights whose shares a lane finds before it evaluates them, if it walks for itself. The shares of
@@ -177,10 +192,13 @@ const uint SHARES_UNASKED = 0x80018001u;
 // Counted for one frame, after the LightingCounters in the same buffer.
 const uint SHADOW_COUNTERS_AT = 256u; // bytes
 struct ShadowCounters {
-    // The next three are counted when lists are made. A frame that keeps the lists keeps them.
-    uint missingSlots;
+    // The next members are counted when lists are made. A frame that keeps the lists keeps them.
     uint triedProofs, wonProofs;
-    uint slots; // that lists take. A frame that keeps the slots keeps it.
+    uint missingPairs; // of lists that found no room for their AskRecords
+    uint missingSlots; // of other lists
+    // A frame that keeps the slots keeps the next two, too.
+    uint pairs; // AskRecords that were made
+    uint slots; // that were taken
     // The others are counted in every frame.
     uint unfinished;        // pairs
     uint kinds[PAIR_KINDS]; // how many pairs of cluster and light were found of each kind
@@ -188,7 +206,7 @@ struct ShadowCounters {
     uvec2 partly;
     uvec2 dark;
 };
-GPU_SIZE(ShadowCounters, 56)
+GPU_SIZE(ShadowCounters, 68)
 
 // --- polygon_facets: which rectangle stands for a polygon, one lane per polygon
 const uint POLYGON_FACETS_GROUP = 64u;
@@ -225,6 +243,8 @@ GPU_SIZE(AskProofsParams, 16)
 // block's cluster, one group per record and one lane per light. Lights, frame and occluders have
 // their usual bindings.
 const uint PROVE_DARK_GROUP = 64u;
+// Leaves whose triangles are tested together: their mask has two words.
+const uint PROOF_LEAVES = 64u / OCCLUDER_LEAF_TRIANGLES;
 const uint PROVE_DARK_SHAPES = 2u;
 const uint PROVE_DARK_CLUSTERS = 3u;
 const uint PROVE_DARK_ENTRIES = 4u;
@@ -233,7 +253,7 @@ const uint PROVE_DARK_COUNTERS = 6u;   // ShadowCounters
 const uint PROVE_DARK_NEIGHBOURS = 8u; // OccluderNeighbours
 const uint PROOF_ROW = 1024u;          // groups in a row
 
-// --- ask_pairs: makes a record of each light in a tile's or slice's list, one group per tile
+// --- ask_pairs: makes an AskRecord of each light in a tile's or slice's list, one group per tile
 const uint ASK_PAIRS_GROUP = 64u;
 const uint ASK_PAIRS_CLUSTERS = 0u;
 const uint ASK_PAIRS_TILES = 1u;
@@ -249,16 +269,19 @@ const uint ASK_PAIRS_BOUNDS = 10u; // SampleBounds per cluster
 struct AskPairsParams {
     uint tileCount;
     uint firstSplit, splitCapacity; // as in TileClustersParams
-    uint capacity;                  // of records and slots
+    uint capacity;                  // of slots
     uint lightType;
 };
 GPU_SIZE(AskPairsParams, 20)
 
 // --- list_occluders: lists the triangles that may shadow the samples of a cluster from a light,
-// one lane per record. Bindings are as in shade_tiles, and:
+// one lane per AskRecord. Lights, tiles, lists and occluders are bound as in shade_tiles, and:
 const uint LIST_OCCLUDERS_GROUP = 64u;
-const uint LIST_OCCLUDERS_ASKED = 10u;  // AskedPairs
-const uint LIST_OCCLUDERS_BOUNDS = 11u; // SampleBounds per cluster
+const uint LIST_OCCLUDERS_COUNTERS = 14u; // LightingCounters
+const uint LIST_OCCLUDERS_ASKED = 15u;    // AskedPairs
+const uint LIST_OCCLUDERS_BOUNDS = 16u;   // SampleBounds per cluster
+const uint LIST_OCCLUDERS_NEIGHBOURS = 17u;
+const uint LIST_OCCLUDERS_UNLISTED = 18u;
 struct ListOccludersParams {
     uint capacity; // as in AskPairsParams
     uint lightType;

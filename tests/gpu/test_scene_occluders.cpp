@@ -156,7 +156,10 @@ TEST_F(SceneOccluders, WallsRemoveLightsAndNoPixelChanges)
         const CndLightingStats stats = countPairs(context(), renderer, frame);
         const Image listed = readRadiance(context(), renderer);
         EXPECT_GT(stats.wonProofs, stats.triedProofs / 4);
-        std::cout << stats.wonProofs << " of " << stats.triedProofs << " proofs won\n";
+        EXPECT_GT(stats.hiddenEntries, stats.listEntries / 20);
+        std::cout << stats.wonProofs << " of " << stats.triedProofs << " proofs won, "
+                  << stats.hiddenEntries << " of " << stats.listEntries
+                  << " lights hidden in lists\n";
         frame.culling = CND_CULLING_BRUTE;
         context().submitAndWait([&](VkCommandBuffer cmd) { renderer.record(cmd, 0, frame); });
         const Image brute = readRadiance(context(), renderer);

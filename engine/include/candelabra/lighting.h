@@ -123,7 +123,7 @@ typedef enum CndShadingBits {
 // (CND_HOST_VISIBLE_POINTS_BIT, compiler.h).
 typedef struct CndShadowDesc {
     // 0 (no shadows), 32 or 64: how many points of each light a pixel asks for. 64 cost little
-    // more. With points the device needs maxPerStageDescriptorStorageBuffers of 11, and depth must
+    // more. With points the device needs maxPerStageDescriptorStorageBuffers of 14, and depth must
     // have at least 24 bits: CndGBufferDesc::depthFormat is D24, D32 or a format of 32-bit floats.
     // If it is VK_FORMAT_UNDEFINED, depth is taken for 32-bit floats.
     uint32_t points;
@@ -369,19 +369,21 @@ typedef struct CndLightingStats {
     uint64_t contributingPairs; // inside pairs whose emitter is not wholly below the horizon
     // With countPairs and CndLightingDesc::shadows: pairs whose visibility was asked for, in this
     // frame or in the one whose answers it reuses, those of which the pixel sees a part of the
-    // light, and those of which it sees nothing. The same pixels count as above.
+    // light, and those of which it sees nothing. The same pixels count as above. Those of
+    // litEntries and hiddenEntries are not asked for.
     uint64_t askedPairs, partlyLitPairs, darkPairs;
-    // Each pair of a cluster and a light takes a slot, 256 bytes of
+    // How this frame finds the shadows of the lights in lists; 0 if it reuses them
+    // (surfacesUnchanged). litEntries: no occluder is between the list's cluster and the light.
+    // hiddenEntries: one occluder is proven to hide the light from the whole cluster.
+    // testedEntries: pixels test the few triangles that may be between. walkedEntries: these are
+    // too many, or the light is too near, and pixels walk through the trees of the occluders.
+    uint32_t litEntries, hiddenEntries, testedEntries, walkedEntries;
+    // testedEntries and walkedEntries take a slot each, 256 bytes of
     // CndLightingViewDesc::shadowBudget. shadowSlots: how many were taken. missingShadowSlots: how
-    // many more pairs found none; their clusters count in unlistedClusters. A budget for the sum of
+    // many more would do; clusters without room count in unlistedClusters. A budget for the sum of
     // both is enough, unless missingListBytes is not 0. Brute force and distant lights do not
     // count.
     uint32_t shadowSlots, missingShadowSlots;
-    // How this frame filled its slots; 0 if it reuses them (surfacesUnchanged). litSlots: no
-    // occluder is between the cluster and the light. listedSlots: pixels test a list of the
-    // triangles that may be there. walkedSlots: these are too many for a list, or the light is too
-    // near, and pixels walk through the trees of the occluders.
-    uint32_t litSlots, listedSlots, walkedSlots;
     // On devices that limit loops: pairs whose search for occluders was cut off in this frame. They
     // have fewer shadows than they should.
     uint32_t unfinishedPairs;

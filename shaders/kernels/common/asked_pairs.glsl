@@ -7,26 +7,31 @@ layout(scalar, binding = ASKED_PAIRS) ASKED_ACCESS buffer AskedPairBuffer
     uint askedWords[];
 };
 
-// Returns where the words of an AskRecord are stored.
+// The functions placeOf...() return where something is stored, as indices of askedWords.
+uint placeOfPair(uint pair)
+{
+    return PAIR_WORDS * pair;
+}
+
+// The slot is read as 0.
+AskRecord askRecord(uint pair)
+{
+    const uint at = placeOfPair(pair);
+    return AskRecord(askedWords[at], askedWords[at + 1u], askedWords[at + 2u], 0u);
+}
+
 uint placeOfRecord(uint slot)
 {
-    return RECORD_WORDS * slot;
+    return PAIR_WORDS * PAIRS_PER_SLOT * params.capacity + RECORD_WORDS * slot;
 }
 
-AskRecord askRecord(uint slot)
-{
-    const uint at = placeOfRecord(slot);
-    return AskRecord(askedWords[at], askedWords[at + 1u], askedWords[at + 2u],
-                     askedWords[at + RECORD_ITEMS]);
-}
-
-// Returns where the slot of a pair is stored: the pair with index `at` of its kind.
+// The slot with index `at` of those of a kind.
 uint placeOfSlot(uint kind, uint at)
 {
-    return (RECORD_WORDS + kind) * params.capacity + at;
+    return (PAIR_WORDS * PAIRS_PER_SLOT + RECORD_WORDS + kind) * params.capacity + at;
 }
 
 uint placeOfItem(uint item)
 {
-    return (RECORD_WORDS + PAIR_KINDS) * params.capacity + ITEM_WORDS * item;
+    return placeOfSlot(SLOT_KINDS, item);
 }

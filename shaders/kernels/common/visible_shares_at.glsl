@@ -6,22 +6,27 @@ layout(scalar, binding = SHADOW_SLOTS) readonly buffer Slots
 {
     uint slots[];
 };
-layout(scalar, binding = SHADOW_PAGE_SLOTS) readonly buffer PageSlots
-{
-    uint pageSlots[];
-};
+#include "kernels/common/slot_of_entry.glsl"
 
 uint walkedTile; // the tile of this group
 
-// Returns the visible shares of the light with index k at this lane's pixel. The slots of distant
-// lights follow one another tile by tile.
-uint visibleSharesAt(uint k)
+// Returns the slot of the light with index k, SLOT_LIT or SLOT_DARK. The slots of distant lights follow
+// one another tile by tile.
+uint slotAt(uint k)
 {
     if (shadowView.asks == 0u)
-        return SHARES_LIT;
-    uint slot = pageSlots[k / PAGE_WORDS] + k % PAGE_WORDS - 1u;
+        return SLOT_LIT;
     if (IS_DISTANT)
-        slot = shadowView.distantSlots[lightType] + params.batch.first * shadowView.distantStride +
+        return shadowView.distantSlots[lightType] + params.batch.first * shadowView.distantStride +
                walkedTile * params.batch.count + k - params.batch.first;
+    return slotOfEntry(k);
+}
+
+// Returns the visible shares of the light with index k at this lane's pixel.
+uint visibleSharesAt(uint k)
+{
+    const uint slot = slotAt(k);
+    if (slot >= SLOT_DARK)
+        return slot == SLOT_LIT ? SHARES_LIT : 0u;
     return slots[slot * SLOT_WORDS + gl_LocalInvocationIndex];
 }

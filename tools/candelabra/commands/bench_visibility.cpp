@@ -117,7 +117,7 @@ void addBenchVisibility(CLI::App& bench, Run& run)
     addBenchOutput(*command, a->directory, a->json, "bench_visibility.json");
     a->device.addTo(*command);
     command->footer(
-        "Pairs are of a pixel and a light whose visibility it asks for. The CPU time per pair is\n"
+        "Pairs are of a pixel and a light of its lists that reaches it. The CPU time per pair is\n"
         "what a frame takes more with shadows, over all threads; only a CPU device draws with it.\n"
         "The truth is that of candelabra truth. The other rows multiply the truth of\n"
         "each light without shadows by the share of rays that reach it, in double precision, so\n"

@@ -189,15 +189,16 @@ std::string shadowText(const CndLightingStats& stats, PixelSize size)
     };
     const uint64_t asked = stats.askedPairs;
     std::string out = fmt::format(
-        "shadows: a pixel asks for {} lights, and sees {} wholly, {} in part and {} not at all; "
-        "{} used",
-        perPixel(asked), perPixel(asked - stats.partlyLitPairs - stats.darkPairs),
-        perPixel(stats.partlyLitPairs), perPixel(stats.darkPairs),
-        counted(stats.shadowSlots, "slot"));
-    const bool fills = stats.litSlots || stats.listedSlots || stats.walkedSlots;
-    if (fills)
-        out += fmt::format("; {} are lit, {} have lists and {} walk", grouped(stats.litSlots),
-                           grouped(stats.listedSlots), grouped(stats.walkedSlots));
+        "shadows: {} lights reach a pixel. It asks for {}, and sees {} of them wholly, {} in part "
+        "and {} not at all; {} used",
+        perPixel(stats.contributingPairs), perPixel(asked),
+        perPixel(asked - stats.partlyLitPairs - stats.darkPairs), perPixel(stats.partlyLitPairs),
+        perPixel(stats.darkPairs), counted(stats.shadowSlots, "slot"));
+    if (stats.litEntries || stats.hiddenEntries || stats.testedEntries || stats.walkedEntries)
+        out += fmt::format("; of the lights in lists, {} are lit, {} hidden, {} tested and {} "
+                           "walked for",
+                           grouped(stats.litEntries), grouped(stats.hiddenEntries),
+                           grouped(stats.testedEntries), grouped(stats.walkedEntries));
     else if (stats.shadowSlots)
         out += ", all kept from the frame before, so that this one asked for none";
     if (stats.missingShadowSlots)
@@ -254,9 +255,10 @@ Json toJson(const CndLightingStats& stats)
                           {"darkPairs", stats.darkPairs},
                           {"slots", stats.shadowSlots},
                           {"missingSlots", stats.missingShadowSlots},
-                          {"litSlots", stats.litSlots},
-                          {"listedSlots", stats.listedSlots},
-                          {"walkedSlots", stats.walkedSlots},
+                          {"litEntries", stats.litEntries},
+                          {"hiddenEntries", stats.hiddenEntries},
+                          {"testedEntries", stats.testedEntries},
+                          {"walkedEntries", stats.walkedEntries},
                           {"unfinishedPairs", stats.unfinishedPairs},
                           {"triedProofs", stats.triedProofs},
                           {"wonProofs", stats.wonProofs}};

@@ -74,7 +74,7 @@ std::string variantOf(const PipelineRequest& request)
         return found == constants.end() ? 0 : found->second;
     };
     if (constants.contains("pairKind")) {
-        constexpr const char* kinds[gpu::PAIR_KINDS] = {"walked", "listed", "lit"};
+        constexpr const char* kinds[gpu::SLOT_KINDS] = {"walked", "listed"};
         return fmt::format("{} {}", lightTypeName(value("lightType")), kinds[value("pairKind")]);
     }
     if (constants.contains("lightType")) {

@@ -285,16 +285,16 @@ std::string visibilityText(const VisibilityCost& cost, const VisibilityErrors& e
                            PixelSize size)
 {
     const CndLightingStats& s = cost.stats;
-    const double asked = double(std::max<uint64_t>(s.askedPairs, 1));
+    const double pairs = double(std::max<uint64_t>(s.contributingPairs, 1));
     std::string out = shadowText(s, size);
     out += fmt::format("{} that blocks list, {} proven dark; prove_dark {} ms\n",
                        counted(s.triedProofs, "light"), grouped(s.wonProofs),
                        threeDigits(cost.proveMs));
-    out += fmt::format("ask_pairs {} ms, pair_visibility {} ms: {} us per pair asked for; CPU "
-                       "time {} us per pair\n",
+    out += fmt::format("ask_pairs {} ms, pair_visibility {} ms: {} us per pair of a pixel and a "
+                       "light that reaches it; CPU time {} us per pair\n",
                        threeDigits(cost.askMs), threeDigits(cost.visibilityMs),
-                       threeDigits(1e3 * cost.visibilityMs / asked),
-                       threeDigits(1e3 * cost.cpuMs / asked));
+                       threeDigits(1e3 * cost.visibilityMs / pairs),
+                       threeDigits(1e3 * cost.cpuMs / pairs));
     out += fmt::format("the frame takes {:.3f} [{:.3f}, {:.3f}] times as long as without shadows\n",
                        cost.ratio.median, cost.ratio.low, cost.ratio.high);
     Table table({"visible share of a light", "mean error", "p95", "p99", "of the pixel: mean",
@@ -318,7 +318,7 @@ std::string visibilityText(const VisibilityCost& cost, const VisibilityErrors& e
 Json visibilityJson(const VisibilityCost& cost, const VisibilityErrors& errors)
 {
     const CndLightingStats& s = cost.stats;
-    const double asked = double(std::max<uint64_t>(s.askedPairs, 1));
+    const double pairs = double(std::max<uint64_t>(s.contributingPairs, 1));
     const auto percent = [](const ErrorSpread& e) {
         return Json{{"meanPercent", 100 * e.mean},
                     {"p95Percent", 100 * e.spread.p95},
@@ -330,7 +330,8 @@ Json visibilityJson(const VisibilityCost& cost, const VisibilityErrors& errors)
                         {"ofUnshadowed", percent(e.ofUnshadowed)},
                         {"ofPixel", percent(e.ofPixel)}});
     return {{"pairs",
-             {{"asked", s.askedPairs},
+             {{"reaching", s.contributingPairs},
+              {"asked", s.askedPairs},
               {"lit", s.askedPairs - s.partlyLitPairs - s.darkPairs},
               {"partlyLit", s.partlyLitPairs},
               {"dark", s.darkPairs},
@@ -340,7 +341,7 @@ Json visibilityJson(const VisibilityCost& cost, const VisibilityErrors& errors)
             {"proveDarkMs", cost.proveMs},
             {"askPairsMs", cost.askMs},
             {"pairVisibilityMs", cost.visibilityMs},
-            {"cpuMicrosecondsPerAskedPair", 1e3 * cost.cpuMs / asked},
+            {"cpuMicrosecondsPerPair", 1e3 * cost.cpuMs / pairs},
             {"timeOverUnshadowed",
              {{"median", cost.ratio.median}, {"low", cost.ratio.low}, {"high", cost.ratio.high}}},
             {"pixelsCompared", errors.compared},
