@@ -36,13 +36,13 @@ namespace
 
 // Limits that must exceed the minimum that Vulkan guarantees: X(limit, least value, parts).
 // Exposure has a lane per bin of its histogram; cluster_lists has ten storage buffers,
-// cull_triangles six, ask_pairs and shade_unlisted with shadows eleven.
+// cull_triangles six, list_occluders thirteen.
 #define CND_LIMIT_NEEDS(X)                                                                         \
     X(maxComputeWorkGroupInvocations, 256, exposureModule)                                         \
     X(maxComputeWorkGroupSize[0], 256, exposureModule)                                             \
     X(maxPerStageDescriptorStorageBuffers, mostStorageBuffers, lightingModule | rasterPass)        \
     X(maxPerStageDescriptorStorageBuffers, shadowStorageBuffers, shadowKernels)
-constexpr uint32_t mostStorageBuffers = 10, shadowStorageBuffers = 14, guaranteedStorageBuffers = 4;
+constexpr uint32_t mostStorageBuffers = 10, shadowStorageBuffers = 13, guaranteedStorageBuffers = 4;
 
 std::string versionText(uint32_t version)
 {

@@ -48,6 +48,7 @@ public:
     static gpu::Binding counters(const gpu::Buffer& counters,
                                  uint32_t binding = gpu::SHADE_COUNTERS);
     gpu::Binding view(uint32_t slot) const;
+    uint32_t capacity() const { return capacity_; } // slots that lists may take
     gpu::Binding slots() const { return gpu::Binding::of(gpu::SHADOW_SLOTS, slots_); }
     // The bindings through which kernels find the visible shares of lights in lists.
     std::array<gpu::Binding, 3> slotBindings() const;

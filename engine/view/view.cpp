@@ -2,6 +2,7 @@
 #include "view/view.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <string>
@@ -33,14 +34,23 @@ uint64_t join(glm::uvec2 lowHigh)
     return uint64_t(lowHigh.y) << 32 | lowHigh.x;
 }
 
-// Returns how many more slots would do for a frame. Lists without room for their records may need a
-// slot for each light.
-uint32_t missingSlots(const gpu::ShadowCounters& c)
+// Returns about how many more slots would do for a frame. Lists without room for their records
+// would take slots in proportion to the others. capacity: of slots. A frame that keeps lists counts
+// only those that are left in pairs and slots.
+uint32_t missingSlots(const gpu::ShadowCounters& c, uint32_t capacity)
 {
     if (!c.missingPairs && !c.missingSlots)
         return 0;
-    const uint32_t ofRecords = gpu::divideUp(c.pairs + c.missingPairs, gpu::PAIRS_PER_SLOT);
-    return std::max(c.slots + c.missingSlots + c.missingPairs, ofRecords) - c.slots;
+    const double made = c.missingPairs
+                            ? std::max(double(c.pairs), double(gpu::PAIRS_PER_SLOT) * capacity)
+                            : c.pairs;
+    const double slots =
+        c.missingSlots ? std::max(c.slots, capacity) + double(c.missingSlots) : c.slots;
+    const double pairs = made + c.missingPairs;
+    const double needed =
+        std::max({std::ceil(pairs / gpu::PAIRS_PER_SLOT),
+                  std::ceil(slots * pairs / std::max(made, 1.0)), capacity + 1.0});
+    return uint32_t(std::min(needed, 4294967295.0)) - c.slots;
 }
 
 CndLightingViewDesc checkedDesc(const gpu::Device& device, CndLightingViewDesc desc)
@@ -209,7 +219,7 @@ CndResult View::stats(uint32_t slot, CndLightingStats& out) const noexcept
     out.partlyLitPairs = join(shadows.partly);
     out.darkPairs = join(shadows.dark);
     out.shadowSlots = shadows.slots;
-    out.missingShadowSlots = missingSlots(shadows);
+    out.missingShadowSlots = shadows_ ? missingSlots(shadows, shadows_->capacity()) : 0;
     out.unfinishedPairs = shadows.unfinished;
     out.litEntries = shadows.kinds[gpu::PAIRS_LIT];
     out.hiddenEntries = shadows.kinds[gpu::PAIRS_DARK];
@@ -232,7 +242,7 @@ void View::reportMissing(const CndLightingStats& stats) const noexcept
         char needed[80] = "";
         if (enough)
             std::snprintf(
-                needed, sizeof needed, ", and %llu would do%s", (unsigned long long)enough,
+                needed, sizeof needed, ", and about %llu would do%s", (unsigned long long)enough,
                 enough > device.limits.maxStorageBufferRange ? ", more than maxStorageBufferRange"
                                                              : "");
         char clusters[40] = "blocks of clusters";

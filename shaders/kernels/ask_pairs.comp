@@ -81,7 +81,7 @@ shared uint firstRecord; // of the present page
 // Returns whether there is room for all records before `end`.
 bool haveRoom(uint end)
 {
-    return end <= PAIRS_PER_SLOT * params.capacity;
+    return end <= min(PAIRS_PER_SLOT * params.capacity, MOST_PAIRS);
 }
 
 // Takes room for `count` records and returns the first. Sets up the groups of list_occluders that

@@ -244,21 +244,24 @@ bool reachesLight(uint light, FacetShape given, inout ShaftEnds ends)
     return isFar && sine > 0.0 && ends.rounding < MAX_ROUNDING;
 }
 
-// Returns whether the triangles of one instance in the list hide the light from all samples. Those
-// that are not in the list have the light and all samples on one side, or are beside the shaft. tries:
-// false: the lane only waits for others.
-bool isProvenDark(uint light, float ownDistance, ShaftEnds ends, uint count, bool tries)
+// Returns whether the triangles of one instance in the list hide the light from all samples. The other
+// triangles of the instance have the light and all samples on one side, or are beside the shaft. So no
+// way crosses their edges with triangles of the list, or planeSide() finds these edges open. The ball
+// is that of the list. tries: false: the lane only waits for others.
+bool isProvenDark(uint light, FacetShape given, float ownDistance, ShaftEnds ends, uint count,
+                  bool tries)
 {
     const mat3 treeFromView = transpose(shadowView.viewFromTree);
-    const vec4 centreRadius = lightCentre(light);
-    LightShape shape = lightShapes[light]; // not the facet's: that of the polygon
+    LightShape shape = given.shape;
     shape.axisU = treeFromView * shape.axisU;
     shape.axisV = treeFromView * shape.axisV;
+    const bool isPolygon = params.lightType == LIGHT_POLYGON; // its facet is a rectangle
+    const float radius = isPolygon ? sqrt(length2(shape.axisU) + length2(shape.axisV))
+                                   : lightCentre(light).w;
     InstanceProof p;
     beginProof(p);
-    const bool inShaft =
-        shaftTo(ends.halfBox, params.lightType, treeFromView * centreRadius.xyz - ends.middle,
-                centreRadius.w, shape, p.shaft);
+    const bool inShaft = shaftTo(ends.halfBox, isPolygon ? LIGHT_RECTANGLE : params.lightType,
+                                 ends.ball - ends.middle, radius, shape, p.shaft);
     uint at = 0u;
     bool dark = false, left = tries && inShaft && count != 0u;
     do { // This loop ends in all lanes at once, as in findItems().
@@ -347,7 +350,8 @@ void writePair(uint pair, AskRecord ask, bool exists, bool isLit, bool isDark, u
     const bool hasSlot = takeSlot(ask, needsSlot, slot);
     const uint wanted = hasSlot ? count : 0u;
     TAKE_PLACES(asked.items, wanted, first)
-    const bool isListed = wanted != 0u && first + wanted <= ITEMS_PER_SLOT * params.capacity;
+    const bool isListed = wanted != 0u && first + wanted <= ITEMS_PER_SLOT * params.capacity &&
+                          first < 1u << (32u - ITEM_COUNT_BITS);
     if (isListed)
         writeItems(first, wanted);
     if (hasSlot) {
@@ -383,6 +387,7 @@ void main()
         findItems(ends, shadowView.layers, ignoredLayers(given.shape.flags), searches, count);
     const bool isKnown = searches && found;
     const bool isLit = exists && (unshadowed || (isKnown && count == 0u));
-    const bool isDark = isProvenDark(ask.light, samples.largestOwnDistance, ends, count, isKnown);
+    const bool isDark =
+        isProvenDark(ask.light, given, samples.largestOwnDistance, ends, count, isKnown);
     writePair(pair, ask, exists, isLit, isDark, isKnown ? count : 0u);
 }

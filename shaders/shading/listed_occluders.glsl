@@ -8,7 +8,7 @@
 #include "shading/occluder_walk.glsl"
 
 // Returns the points of the facet that no triangle of the `count` items from `first` on hides. The
-// first item has an instance. All lanes of the group have the same items.
+// first item is an instance. All lanes of the group have the same items.
 uvec2 listedPoints(OccluderQuery q, uint first, uint count, bool asks)
 {
     OccluderWalk w = walkFromRoot();

@@ -99,7 +99,7 @@ const uint SHADOW_POINTS = 28u; // texel buffer: engine/tables/point_table.h
 const uint SHADOW_VIEW = 29u;
 // Bindings of the kernels that read or write visible shares.
 const uint SHADOW_SLOTS = 30u;
-const uint SHADOW_PAGE_PAIRS = 31u; // per page of the entry buffer: AskRecord of its first light
+const uint SHADOW_PAGE_PAIRS = 31u; // per page of the entry buffer: index of the first AskRecord
 const uint SHADOW_ASKED = 36u;      // AskedPairs, then AskRecords
 // In place of SHADOW_VIEW in the forward set of modules whose hosts have rays: shaders with rays
 // fit that set alone, and shaders that walk fit the others.
@@ -159,11 +159,11 @@ struct AskedPairs {
     // The next members count for all light types that have asked so far in the frame. Those above
     // are reset for each type.
     uint written; // AskRecords before this one are written
-    uint taken;   // AskRecords that were asked for, also those beyond the capacity
-    uint slots;   // that were asked for, also those beyond the capacity
+    uint taken;   // AskRecords that lists asked for, also those beyond the capacity
+    uint slots;   // slots that pairs asked for, also those beyond the capacity
 };
 GPU_SIZE(AskedPairs, 72)
-// For which there is room.
+// The buffer has room for so many AskRecords and items per slot.
 const uint PAIRS_PER_SLOT = 4u;
 const uint ITEMS_PER_SLOT = 8u;
 // Words per slot, after AskedPairs.
@@ -172,14 +172,16 @@ const uint ASKED_WORDS = PAIR_WORDS * PAIRS_PER_SLOT + RECORD_WORDS + SLOT_KINDS
 // Bounds of the samples of a cluster in the axes of the world, relative to the eye, in metres.
 struct SampleBounds {
     vec3 low;
-    // That part of the least and the largest ownSurfaceDistance() that depends on no instance.
+    // ownDistance and largestOwnDistance: that part of the least and of the largest
+    // ownSurfaceDistance() of the samples that depends on no instance.
     float ownDistance;
     vec3 high;
     float largestOwnDistance;
 };
 GPU_SIZE(SampleBounds, 32)
 const uint SLOT_WORDS = 64u;
-const uint ASK_ROW = 1024u; // pairs that a row of groups takes
+const uint ASK_ROW = 1024u;               // pairs that a row of groups takes
+const uint MOST_PAIRS = 65535u * ASK_ROW; // devices may have no more groups in y
 // Lights whose shares a lane finds before it evaluates them, if it walks for itself. The shares of
 // more would occupy too many registers.
 const uint SHADOW_BLOCK = 16u;

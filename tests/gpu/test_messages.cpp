@@ -82,19 +82,21 @@ TEST_F(LightingTest, TheBudgetThatRanOutIsTold)
     constexpr VkDeviceSize slot = 256, few = 16 * slot;
     const CndLightingStats short_ = statsWith(0, few);
     const VkDeviceSize enough = (short_.shadowSlots + short_.missingShadowSlots) * slot;
-    log.expect(CND_MESSAGE_WARNING,
-               "no list, because CndLightingViewDesc::shadowBudget, 4096 bytes, was used up, and " +
-                   std::to_string(enough) + " would do: they walk");
+    log.expect(
+        CND_MESSAGE_WARNING,
+        "no list, because CndLightingViewDesc::shadowBudget, 4096 bytes, was used up, and about " +
+            std::to_string(enough) + " would do: they walk");
     const CndLightingStats whole = statsWith(0, enough);
     log.expectNone();
-    EXPECT_EQ(whole.shadowSlots * slot, enough);
+    EXPECT_LE(whole.shadowSlots * slot, enough);
+    EXPECT_EQ(whole.missingShadowSlots, 0u);
     EXPECT_EQ(whole.missingListBytes, 0u);
-    // Lists that were not made would take more slots.
+    // Lists that were not made would need more room.
     VkDeviceSize lists = 6144;
     CndLightingStats both = statsWith(lists, slot);
-    EXPECT_LT(both.shadowSlots + both.missingShadowSlots, whole.shadowSlots);
+    EXPECT_LT((both.shadowSlots + both.missingShadowSlots) * slot, enough);
     ASSERT_EQ(log.messages.size(), 2u);
-    EXPECT_NE(log.messages[0].sentence.find("listBudget, 6144 bytes, was used up, and " +
+    EXPECT_NE(log.messages[0].sentence.find("listBudget, 6144 bytes, was used up, and about " +
                                             std::to_string(lists + both.missingListBytes) +
                                             " would do: "),
               std::string::npos)
@@ -107,7 +109,7 @@ TEST_F(LightingTest, TheBudgetThatRanOutIsTold)
         both = statsWith(lists, slot);
     }
     EXPECT_EQ(both.missingListBytes, 0u);
-    EXPECT_EQ(both.shadowSlots + both.missingShadowSlots, whole.shadowSlots);
+    EXPECT_EQ((both.shadowSlots + both.missingShadowSlots) * slot, enough);
 }
 
 } // namespace candelabra::test

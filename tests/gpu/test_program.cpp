@@ -136,7 +136,7 @@ TEST_F(ProgramTest, ShadowsTakeLightAway)
     const Outcome on =
         run(start + "b.pfm --shadows 64 --json b.json --explain --pick 32,25 --validate");
     ASSERT_EQ(on.exitCode, 0) << on.err;
-    EXPECT_NE(on.out.find("shadows: a pixel asks for "), std::string::npos) << on.out;
+    EXPECT_NE(on.out.find(" lights reach a pixel. It asks for "), std::string::npos) << on.out;
     const auto json = nlohmann::json::parse(text("b.json"));
     EXPECT_EQ(json["settings"]["shadows"], "64");
     EXPECT_EQ(test::keyFaults(json["lighting"]["shadows"], "render-shadows"), "");

@@ -123,7 +123,7 @@ typedef enum CndShadingBits {
 // (CND_HOST_VISIBLE_POINTS_BIT, compiler.h).
 typedef struct CndShadowDesc {
     // 0 (no shadows), 32 or 64: how many points of each light a pixel asks for. 64 cost little
-    // more. With points the device needs maxPerStageDescriptorStorageBuffers of 14, and depth must
+    // more. With points the device needs maxPerStageDescriptorStorageBuffers of 13, and depth must
     // have at least 24 bits: CndGBufferDesc::depthFormat is D24, D32 or a format of 32-bit floats.
     // If it is VK_FORMAT_UNDEFINED, depth is taken for 32-bit floats.
     uint32_t points;
@@ -199,11 +199,12 @@ typedef struct CndLightingViewDesc {
     // CndLightingStats::unlistedClusters counts these clusters.
     VkDeviceSize listBudget;
     // Bytes for what pixels see of lights, with CndLightingDesc::shadows. Every light on the list
-    // of a cluster takes 256 of them, and 60 more beside the budget. Clusters for which there is no
-    // room are shaded by walking the light tree, as those without a list. The view allocates 256
-    // bytes more per 8x8 pixel tile of the largest frame, which is room for one distant light. 0:
-    // default, 128 MiB, less if the sum exceeds the device's maxStorageBufferRange. A larger budget
-    // leaves less room for distant lights.
+    // of a cluster takes 256 of them, unless it is seen wholly or is proven to be hidden. Each 256
+    // bytes take 112 more beside the budget, among them records for four lights on lists. Clusters
+    // for which there is no room are shaded by walking the light tree, as those without a list. The
+    // view allocates 256 bytes more per 8x8 pixel tile of the largest frame, which is room for one
+    // distant light. 0: default, 128 MiB, less if the sum exceeds the device's
+    // maxStorageBufferRange. A larger budget leaves less room for distant lights.
     VkDeviceSize shadowBudget;
 } CndLightingViewDesc;
 
@@ -279,7 +280,9 @@ typedef struct CndLightingFrame {
     // With countPairs and CndLightingDesc::shadows: receives the shadows of every pixel, or is
     // VK_NULL_HANDLE. An image as pairImage. ADDED to it: in r the lights whose visibility the
     // pixel asked for, in g those of which it sees a part, in b those of which it sees nothing.
-    // Lights of clusters without a list are not counted. Brute force writes nothing to it.
+    // Pixels do not ask for CndLightingStats::litEntries and hiddenEntries, so where all lights are
+    // seen wholly or proven to be hidden, it adds 0. Lights of clusters without a list are not
+    // counted. Brute force writes nothing to it.
     VkImageView shadowImage;
     // VK_TRUE: the frame has no shadows. Ignored without CndLightingDesc::shadows.
     VkBool32 shadowsOff;
@@ -379,9 +382,10 @@ typedef struct CndLightingStats {
     // too many, or the light is too near, and pixels walk through the trees of the occluders.
     uint32_t litEntries, hiddenEntries, testedEntries, walkedEntries;
     // testedEntries and walkedEntries take a slot each, 256 bytes of
-    // CndLightingViewDesc::shadowBudget. shadowSlots: how many were taken. missingShadowSlots: how
-    // many more would do; clusters without room count in unlistedClusters. A budget for the sum of
-    // both is enough, unless missingListBytes is not 0. Brute force and distant lights do not
+    // CndLightingViewDesc::shadowBudget. shadowSlots: how many were taken. missingShadowSlots:
+    // about how many more would do; clusters without room count in unlistedClusters. It is an
+    // estimate, because lights of lists without room are not searched. A budget for the sum of both
+    // is about enough, unless missingListBytes is not 0. Brute force and distant lights do not
     // count.
     uint32_t shadowSlots, missingShadowSlots;
     // On devices that limit loops: pairs whose search for occluders was cut off in this frame. They

@@ -13,7 +13,7 @@ uint placeOfPair(uint pair)
     return PAIR_WORDS * pair;
 }
 
-// The slot is read as 0.
+// Returns the record of a pair. Its member `slot` is not read, and is 0.
 AskRecord askRecord(uint pair)
 {
     const uint at = placeOfPair(pair);

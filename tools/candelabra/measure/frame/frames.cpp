@@ -83,7 +83,8 @@ private:
 
 bool asksForShadows(const CndLightingStats& stats)
 {
-    return stats.askedPairs || stats.shadowSlots || stats.missingShadowSlots || stats.triedProofs;
+    return stats.askedPairs || stats.shadowSlots || stats.missingShadowSlots || stats.triedProofs ||
+           stats.litEntries || stats.hiddenEntries;
 }
 
 } // namespace

@@ -203,6 +203,7 @@ VisibilityCost measureVisibilityCost(const VulkanContext& context, Renderer& ren
     VisibilityCost out{.stats = countPairs(context, renderer, settings.frame),
                        .proveMs = medianOfPass(profile.series[0], "prove_dark"),
                        .askMs = medianOfPass(profile.series[0], "ask_pairs"),
+                       .listMs = medianOfPass(profile.series[0], "list_occluders"),
                        .visibilityMs = medianOfPass(profile.series[0], "pair_visibility"),
                        .ratio = pairedRatio(profile.series[1].gpuMs, profile.series[0].gpuMs)};
     std::vector<double> more;
@@ -290,10 +291,10 @@ std::string visibilityText(const VisibilityCost& cost, const VisibilityErrors& e
     out += fmt::format("{} that blocks list, {} proven dark; prove_dark {} ms\n",
                        counted(s.triedProofs, "light"), grouped(s.wonProofs),
                        threeDigits(cost.proveMs));
-    out += fmt::format("ask_pairs {} ms, pair_visibility {} ms: {} us per pair of a pixel and a "
-                       "light that reaches it; CPU time {} us per pair\n",
-                       threeDigits(cost.askMs), threeDigits(cost.visibilityMs),
-                       threeDigits(1e3 * cost.visibilityMs / pairs),
+    out += fmt::format("ask_pairs {} ms, list_occluders {} ms, pair_visibility {} ms: {} us per "
+                       "pair of a pixel and a light that reaches it; CPU time {} us per pair\n",
+                       threeDigits(cost.askMs), threeDigits(cost.listMs),
+                       threeDigits(cost.visibilityMs), threeDigits(1e3 * cost.visibilityMs / pairs),
                        threeDigits(1e3 * cost.cpuMs / pairs));
     out += fmt::format("the frame takes {:.3f} [{:.3f}, {:.3f}] times as long as without shadows\n",
                        cost.ratio.median, cost.ratio.low, cost.ratio.high);
@@ -340,6 +341,7 @@ Json visibilityJson(const VisibilityCost& cost, const VisibilityErrors& errors)
             {"proofs", {{"tried", s.triedProofs}, {"won", s.wonProofs}}},
             {"proveDarkMs", cost.proveMs},
             {"askPairsMs", cost.askMs},
+            {"listOccludersMs", cost.listMs},
             {"pairVisibilityMs", cost.visibilityMs},
             {"cpuMicrosecondsPerPair", 1e3 * cost.cpuMs / pairs},
             {"timeOverUnshadowed",

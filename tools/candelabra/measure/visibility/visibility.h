@@ -44,9 +44,9 @@ struct VisibilityErrors {
 };
 
 struct VisibilityCost {
-    CndLightingStats stats{};           // with counted pairs
-    double proveMs = 0;                 // medians of the passes prove_dark,
-    double askMs = 0, visibilityMs = 0; // ask_pairs and pair_visibility
+    CndLightingStats stats{}; // with counted pairs
+    // Medians of the passes prove_dark, ask_pairs, list_occluders and pair_visibility.
+    double proveMs = 0, askMs = 0, listMs = 0, visibilityMs = 0;
     double cpuMs = 0;  // CPU time that a frame takes with shadows, less that without
     PairedRatio ratio; // GPU time with shadows over that without
 };
