@@ -378,6 +378,8 @@ TEST_F(VisibilityFrames, ListsKeepTheBitsOfOddOccluders)
 // lists.
 TEST_F(VisibilityFrames, ProofsChangeNoPixel)
 {
+    // The centre of such a light is far from all that emits.
+    const CndPolygon aside{4, {{0.8f, 0.8f}, {1, 0.8f}, {1, 1}, {0.8f, 1}}};
     uint64_t won = 0, tried = 0, hidden = 0;
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
         if (cndIsDistant(type))
@@ -390,6 +392,8 @@ TEST_F(VisibilityFrames, ProofsChangeNoPixel)
                 lights[i].influenceRadius *= 4;
                 lights[i].unshadowed = i % 16 == 0;
                 lights[i].unshadowedBy = i % 4 == 0 ? 2 : 0;
+                if (type == CND_LIGHT_POLYGON && i % 3 == 0)
+                    lights[i].polygon = &aside;
             }
             const LightingResult listed = draw(lights);
             EXPECT_LE(listed.stats.wonProofs, listed.stats.triedProofs);
