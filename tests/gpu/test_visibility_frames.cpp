@@ -246,8 +246,9 @@ TEST_F(VisibilityBits, LightInFullViewKeepsThem)
             drawn[0] = drawFrame(own.view, frameOf(g, images, options), images);
             continue;
         }
-        // The first mesh is one triangle behind the camera. It hides no light. The second mesh is a
-        // row of triangles between the surfaces and the lights. It hides some of the lights.
+        // The first mesh has a single triangle, which lies behind the camera and hides no light.
+        // The second mesh has 17 triangles between the surfaces and the lights. They hide some of
+        // the lights.
         std::vector<float> positions = {-9, -9, 5, 9, -9, 5, 0, 9, 5};
         for (float x = -4; x <= 4; x += 0.5f)
             positions.insert(positions.end(), {x, -30, 0, x, 30, 0, x, 0, -40});
@@ -378,7 +379,7 @@ TEST_F(VisibilityFrames, ListsKeepTheBitsOfOddOccluders)
 // lists.
 TEST_F(VisibilityFrames, ProofsChangeNoPixel)
 {
-    // The centre of such a light is far from all that emits.
+    // A polygon light with this outline emits only far from its centre.
     const CndPolygon aside{4, {{0.8f, 0.8f}, {1, 0.8f}, {1, 1}, {0.8f, 1}}};
     uint64_t won = 0, tried = 0, hidden = 0;
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
