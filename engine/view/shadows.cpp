@@ -175,9 +175,10 @@ void Shadows::writeBindings(const FramePlan& plan, const Inputs& in) const
                               Binding::of(POLYGON_FACETS_ORDER, lights.order()),
                               Binding::of(POLYGON_FACETS_SHAPES, in.shapes),
                               Binding::ofTexels(SHADOW_POINTS, points_)});
-    BindingList surfaces;
-    surfaces.add(occluderBindings(slot));
-    surfaces.add(occluderTexels());
+    BindingList occluders;
+    occluders.add(occluderBindings(slot));
+    occluders.add(occluderTexels());
+    BindingList surfaces = occluders;
     surfaces.add(in.gbuffer.bindings());
     const Binding shadowCounters = counters(in.counters);
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
@@ -186,7 +187,7 @@ void Shadows::writeBindings(const FramePlan& plan, const Inputs& in) const
         const uint32_t set = slot * CND_LIGHT_TYPE_COUNT + type;
         const Clusters::Lists& lists = clusters_.lists(type);
         if (!isDistant(type))
-            writeListBindings(slot, type, in);
+            writeListBindings(slot, type, in, occluders);
         visibilitySets_.write(
             set,
             {Binding::ofTexels(LIGHT_CORE_TEXELS, in.core), Binding::of(LIGHT_CORE, in.core),
@@ -208,16 +209,15 @@ void Shadows::writeBindings(const FramePlan& plan, const Inputs& in) const
     }
 }
 
-// Writes the bindings of what finds the triangles that may shadow the lights of lists.
-void Shadows::writeListBindings(uint32_t slot, uint32_t type, const Inputs& in) const
+// Writes the bindings of the kernels that find the triangles between clusters and the lights of
+// their lists.
+void Shadows::writeListBindings(uint32_t slot, uint32_t type, const Inputs& in,
+                                const gpu::BindingList& occluders) const
 {
     using namespace gpu;
     const uint32_t set = slot * CND_LIGHT_TYPE_COUNT + type;
     const Clusters::Lists& lists = clusters_.lists(type);
     const gpu::Buffer& neighbours = module_.occluders->meshes().neighbours();
-    BindingList occluders;
-    occluders.add(occluderBindings(slot));
-    occluders.add(occluderTexels());
     askSets_.write(set,
                    {Binding::of(ASK_PAIRS_CLUSTERS, clusters_.clusters()),
                     Binding::of(ASK_PAIRS_TILES, clusters_.tiles()),

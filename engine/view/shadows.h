@@ -82,7 +82,8 @@ public:
                       const gpu::LightBatch& batch) const noexcept;
 
 private:
-    void writeListBindings(uint32_t slot, uint32_t type, const Inputs& inputs) const;
+    void writeListBindings(uint32_t slot, uint32_t type, const Inputs& inputs,
+                           const gpu::BindingList& occluders) const;
     // The offset of each slot is a multiple of this, the largest minUniformBufferOffsetAlignment
     // that Vulkan allows a device.
     static constexpr VkDeviceSize viewStride = 256;

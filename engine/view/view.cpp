@@ -34,9 +34,10 @@ uint64_t join(glm::uvec2 lowHigh)
     return uint64_t(lowHigh.y) << 32 | lowHigh.x;
 }
 
-// Returns about how many more slots would do for a frame. Lists without room for their records
-// would take slots in proportion to the others. capacity: of slots. A frame that keeps lists counts
-// only those that are left in pairs and slots.
+// Estimates how many more slots would be enough for a frame. It assumes that lists without room for
+// their records would take slots as often as the other lists do. capacity: the slots that lists may
+// take. In a frame that keeps its lists, c.pairs and c.slots do not count the lists that found no
+// room.
 uint32_t missingSlots(const gpu::ShadowCounters& c, uint32_t capacity)
 {
     if (!c.missingPairs && !c.missingSlots)
@@ -50,7 +51,7 @@ uint32_t missingSlots(const gpu::ShadowCounters& c, uint32_t capacity)
     const double needed =
         std::max({std::ceil(pairs / gpu::PAIRS_PER_SLOT),
                   std::ceil(slots * pairs / std::max(made, 1.0)), capacity + 1.0});
-    return uint32_t(std::min(needed, 4294967295.0)) - c.slots;
+    return uint32_t(std::min(needed, double(UINT32_MAX))) - c.slots;
 }
 
 CndLightingViewDesc checkedDesc(const gpu::Device& device, CndLightingViewDesc desc)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Asks for the visibility of every light in the lists of tiles and slices: makes an AskRecord for
-// each (shared/occluder_data.h). Those of a page are consecutive. If a list finds no room for its
+// each (shared/occluder_data.h). The records of a page are consecutive. If a list finds no room for its
 // records, it becomes one that has no page: its pixels walk the light tree. Also finds the bounds of
 // the samples of these clusters.
 #version 460
@@ -67,14 +67,7 @@ layout(scalar, binding = ASK_PAIRS_BOUNDS) writeonly buffer Bounds
 #include "kernels/common/asked_pairs.glsl"
 #include "kernels/common/cluster_of_depth.glsl"
 #include "kernels/common/depth_error.glsl"
-#include "kernels/common/tile_work_lists.glsl"
-
-// Appends a tile to the work lists of shade_unlisted, and counts the cluster.
-void appendUnlisted(uint tile)
-{
-    atomicAdd(counters.unlistedClusters, 1u);
-    APPEND_TILE(unlisted, unlistedTiles, tile, UNLISTED_BITS, ANY_HEIGHT)
-}
+#include "kernels/common/append_unlisted.glsl"
 
 shared uint firstRecord; // of the present page
 

@@ -53,7 +53,7 @@ layout(scalar, binding = LIST_OCCLUDERS_UNLISTED) buffer Unlisted
 #define ASKED_ACCESS
 #include "kernels/common/asked_pairs.glsl"
 #include "kernels/common/light_stream.glsl"
-#include "kernels/common/tile_work_lists.glsl"
+#include "kernels/common/append_unlisted.glsl"
 #include "shading/facet_shape.glsl"
 #include "shading/occluder_buffers.glsl"
 #include "shading/occluder_leaf.glsl"
@@ -335,14 +335,13 @@ bool takeSlot(AskRecord ask, bool needs, out uint slot)
         if (missing != 0u)
             atomicAdd(shadowCounters.missingSlots, missing);
     }
-    if (needs && !has && atomicExchange(lists[ask.cluster], LIST_UNLISTED) != LIST_UNLISTED) {
-        atomicAdd(counters.unlistedClusters, 1u);
-        APPEND_TILE(unlisted, unlistedTiles, ask.tile, UNLISTED_BITS, ANY_HEIGHT)
-    }
+    if (needs && !has && atomicExchange(lists[ask.cluster], LIST_UNLISTED) != LIST_UNLISTED)
+        appendUnlisted(ask.tile);
     return has;
 }
 
-// Gives the pair its place among those of its kind. count: of its items, 0: they are not known.
+// Gives the pair its place among those of its kind. count: how many items the pair has; 0: they are
+// not known.
 void writePair(uint pair, AskRecord ask, bool exists, bool isLit, bool isDark, uint count)
 {
     const bool needsSlot = exists && !isLit && !isDark;

@@ -10,7 +10,7 @@
 
 // The proof that one instance hides a light. Before the first one, call beginProof().
 struct InstanceProof {
-    Shaft shaft; // its space is rotated against the view, and shaft.ball is relative to the box
+    Shaft shaft; // in the axes of the view or of the world, relative to the centre of the box
     uint turns;  // of loops, of all instances
     // These members are of the present instance.
     mat3 shaftFromLocal; // linear part of the transform

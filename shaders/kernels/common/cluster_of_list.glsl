@@ -76,11 +76,6 @@ void appendLit(uint tile, uint height)
     APPEND_TILE(lit, litTiles, tile, LIT_BITS, height)
 }
 
-// Appends a tile to the work lists of shade_unlisted, and counts the cluster.
-void appendUnlisted(uint tile)
-{
-    atomicAdd(counters.unlistedClusters, 1u);
-    APPEND_TILE(unlisted, unlistedTiles, tile, UNLISTED_BITS, ANY_HEIGHT)
-}
+#include "kernels/common/append_unlisted.glsl"
 
 #endif

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Work lists of tiles. The includer provides tiles[], and params with the light type.
+#ifndef CND_COMMON_TILE_WORK_LISTS
+#define CND_COMMON_TILE_WORK_LISTS
 
 // Appends a tile to a work list unless another cluster's lane has done so for this light type.
 // `height`: that of the tile, such as ANY_HEIGHT.
@@ -13,3 +15,5 @@
         if (place % TILE_ROW == 0u)                                                                \
             atomicAdd(works[work].groupsY, 1u);                                                    \
     }
+
+#endif
