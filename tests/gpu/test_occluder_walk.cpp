@@ -140,7 +140,8 @@ gpu::WalkProbeInput VisibilityWalk::pair(uint32_t type, const glm::dvec3& receiv
     glm::dvec3 normal = anyDirection();
     if (random_() % 4 == 0) {
         const glm::dvec3 a = glm::normalize(light - position);
-        normal -= (glm::dot(normal, a) - std::exp2(uniform(-17, -4))) * a;
+        const double sine = random_() % 8 ? std::exp2(uniform(-17, -4)) : 0;
+        normal -= (glm::dot(normal, a) - (random_() % 2 ? sine : -sine)) * a;
     }
     const glm::dvec3 n = glm::normalize(normal);
     const glm::dvec3 u = glm::normalize(glm::cross(n, anyDirection())), v = glm::cross(n, u);
@@ -153,6 +154,17 @@ gpu::WalkProbeInput VisibilityWalk::pair(uint32_t type, const glm::dvec3& receiv
     in.shape.axisU = glm::vec3(type == CND_LIGHT_DISC ? n : 0.7 * size * u);
     in.shape.axisV = glm::vec3(0.4 * size * v);
     return in;
+}
+
+// Tells whether the facet of a disc or rectangle is sheared (MIN_FACET_SLOPE in
+// lib/visibility/facet.glsl).
+bool isSeenFromEdge(const gpu::WalkProbeInput& in)
+{
+    const bool isDisc = in.type == CND_LIGHT_DISC;
+    if (!isDisc && in.type != CND_LIGHT_RECTANGLE)
+        return false;
+    const glm::vec3 n = isDisc ? in.shape.axisU : glm::cross(in.shape.axisU, in.shape.axisV);
+    return std::abs(glm::dot(glm::normalize(n), glm::normalize(in.toLight))) < 0x1p-9f;
 }
 
 // Nodes of the tree over instances whose triangles one dispatch tests.
@@ -305,7 +317,7 @@ void VisibilityScenes::expectEqualMasks(const char* name)
     };
     view_ = glm::lookAt(scene.cameras[0].position,
                         scene.cameras[0].position + scene.cameras[0].forward, {0, 1, 0});
-    const uint32_t count = fullTests() ? 600 : 64;
+    const uint32_t count = fullTests() ? 2400 : 256;
     std::vector<gpu::WalkProbeInput> inputs;
     while (inputs.size() < count) {
         const CndLight& light = scene.lights[random_() % scene.lights.size()];
@@ -313,26 +325,36 @@ void VisibilityScenes::expectEqualMasks(const char* name)
         const glm::dvec3 surface = anyVertex() + pointWithin(0.05);
         const glm::dvec3 receiver = glm::mix(surface, lamp, uniform(0, 0.6));
         // The facet of a polygon is that of a rectangle.
-        uint32_t type = uint32_t(inputs.size()) % CND_LIGHT_TYPE_COUNT;
+        uint32_t type = uint32_t(inputs.size() / 8) % CND_LIGHT_TYPE_COUNT;
         if (type == CND_LIGHT_POLYGON)
             type = CND_LIGHT_RECTANGLE;
-        if (glm::distance(surface, lamp) < 5)
-            inputs.push_back(pair(type, receiver, lamp, std::exp2(uniform(-5, 0))));
+        if (glm::distance(surface, lamp) >= 5)
+            continue;
+        // As in a tile, receivers that walk together are close to each other. llvmpipe would end
+        // most walks of distant ones (DECISIONS 12).
+        const double size = std::exp2(uniform(-5, 0));
+        for (int i = 0; i < 8; ++i)
+            inputs.push_back(pair(type, receiver + pointWithin(0.02), lamp, size));
     }
     give(scene, true);
     const auto halved = evaluate(inputs, 64, false);
     give(scene, false);
     const auto whole = evaluate(inputs, 64);
-    uint32_t finished = 0, partial = 0, dark = 0;
+    uint32_t finished = 0, partial = 0, dark = 0, differentFromEdge = 0;
     for (uint32_t i = 0; i < count; ++i) {
         if (!whole[i].finished || !halved[i].finished)
             continue;
         ++finished;
         dark += whole[i].walked == glm::uvec2(0);
         partial += whole[i].walked != whole[i].members && whole[i].walked != glm::uvec2(0);
-        EXPECT_EQ(whole[i].walked, whole[i].tested) << name << ", pair " << i;
-        EXPECT_EQ(whole[i].walked, halved[i].walked) << name << ", pair " << i;
+        const bool differs =
+            whole[i].walked != whole[i].tested || whole[i].walked != halved[i].walked;
+        if (isSeenFromEdge(inputs[i]))
+            differentFromEdge += differs;
+        else
+            EXPECT_FALSE(differs) << name << ", pair " << i;
     }
+    EXPECT_LE(differentFromEdge, count / 400); // DECISIONS 90
     std::cout << fmt::format("{}: {} of {} walks finished, {} partial, {} dark\n", name, finished,
                              count, partial, dark);
     EXPECT_GE(finished, count - count / 20);

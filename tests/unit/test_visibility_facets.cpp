@@ -333,6 +333,36 @@ TEST(VisibilityFacets, FlatLights)
                  {0.068, 0.094, 0.107, 0.084});
 }
 
+// The points of a rectangle that is seen from its edge move a little, so that its light coordinates
+// are precise. A wall that it lies flush in still hides none of them.
+TEST(VisibilityFacets, FlatLightsAreSeenAtALeastSine)
+{
+    constexpr double least = 0x1p-9;
+    formula::Light light{.type = CND_LIGHT_RECTANGLE};
+    light.shape.axisU = {0.7, 0, 0};
+    light.shape.axisV = {0, 0, 0.4};
+    for (const double sine : {0.0, 1e-6, -3e-4, 1.8e-3, -1.8e-3, -2e-3, 0.1}) {
+        light.centre = 4.0 * glm::normalize(glm::dvec3(0.6, sine, 0.8));
+        const formula::LightFacet f = formula::lightFacet(64, {}, light);
+        EXPECT_EQ(f.members, ~uint64_t{0}) << sine;
+        const glm::dvec3 n = glm::normalize(glm::cross(f.halfU, f.halfV));
+        const double seen = std::abs(glm::dot(n, glm::normalize(f.centre)));
+        const double unit = 1 / f.inverseDistance;
+        if (std::abs(sine) < least) {
+            EXPECT_GE(seen, 0.499 * least) << sine;
+            EXPECT_LE(glm::distance(unit * f.halfU, glm::dvec3(0.7, 0, 0)), 0.7 * least) << sine;
+            EXPECT_LE(glm::distance(unit * f.halfV, glm::dvec3(0, 0, 0.4)), 0.4 * least) << sine;
+            EXPECT_LE(glm::distance(unit * f.centre, light.centre), 1.1 * least) << sine;
+        } else {
+            EXPECT_NEAR(seen, std::abs(sine), 0.01 * seen) << sine;
+            EXPECT_LE(glm::distance(unit * f.halfU, glm::dvec3(0.7, 0, 0)), 1e-7) << sine;
+        }
+        const double y = light.centre.y;
+        const formula::Triangle wall[] = {{{{-99, y, -99}, {99, y, -99}, {0, y, 99}}}};
+        EXPECT_EQ(formula::hiddenPoints(f, {.triangles = wall}, {}), 0u) << sine;
+    }
+}
+
 TEST(VisibilityFacets, Polygons)
 {
     const std::vector<glm::dvec2> triangle{{-1, -1}, {1, -1}, {0.2, 1}};

@@ -39,7 +39,7 @@ const float PROOF_SLACK = 4.0 * PLANE_SLACK;
 // found): it is parallel to the facet, also if the tube is seen from its end.
 const float FRONT_OF_TUBE = 2.0;
 
-// Returns the least sine of the angle at which receivers in the box see a flat facet. normal: the cross
+// Returns the least sine of the angle at which receivers in the box see a flat light. normal: the cross
 // product of unit vectors along its half axes. farthest: bound of its distance.
 float leastSlope(vec3 box, vec3 toLight, vec3 normal, float farthest)
 {
@@ -48,8 +48,7 @@ float leastSlope(vec3 box, vec3 toLight, vec3 normal, float farthest)
 
 // Sets the shaft from a box to the ball that holds the facets of a light (light_facet.glsl) for all
 // receivers in the box. The ball also holds the end of each way, where occluders do not count
-// (FrontSurface). Returns false if there is no proof, because some receiver is too near to the light or
-// sees it too flat for a facet, and thus sees all of it.
+// (FrontSurface). Returns false if there is no proof, because some receiver is too near to the light.
 // toLight: from the centre of the box to that of the light; shape: that of the light, also of polygons.
 bool shaftTo(vec3 box, uint type, vec3 toLight, float boundingRadius, LightShape shape, out Shaft s)
 {
@@ -67,8 +66,9 @@ bool shaftTo(vec3 box, uint type, vec3 toLight, float boundingRadius, LightShape
         slope = shape.radius / (2.0 * boundingRadius); // half of the least one
     }
     radius += farthest * (FRONT_SLACK + 2.0 * MIN_FACET_SIZE);
-    s = Shaft(box, toLight, radius, PROOF_SLACK / slope);
-    return nearest > radius && slope > 2.0 * MIN_FACET_SLOPE;
+    // Facets are seen at half of MIN_FACET_SLOPE or more, but for rounding.
+    s = Shaft(box, toLight, radius, PROOF_SLACK / max(slope, 0.25 * MIN_FACET_SLOPE));
+    return nearest > radius;
 }
 
 // A triangle of an instance.

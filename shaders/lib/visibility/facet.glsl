@@ -44,9 +44,12 @@ struct Facet {
 // Facets have half axes of at least this length times their distance, so that their coordinates stay
 // within the range of float32.
 const float MIN_FACET_SIZE = 6.103515625e-5; // 2^-14
-// A facet is seen too flat to be tested if the determinant of its vectors is below this value times the
-// product of their lengths.
-const float MIN_FACET_SLOPE = 1e-5;
+// A facet that is seen at a lower sine of the elevation is sheared along its normal, because its light
+// coordinates would not be precise. Its points move by at most twice this share of the sum of its half
+// axes, to the side of its plane that the receiver is on: otherwise a wall that it lies flush in would
+// hide them. (Some points of large facets nearby move to the other side.) It is seen at half of this
+// sine or more. Facets of receivers on both sides of the plane differ, but light there is almost 0.
+const float MIN_FACET_SLOPE = 1.953125e-3; // 2^-9
 // From this squared sine of its angular radius on, a sphere is lit as if the receiver were inside.
 const float MAX_FACET_SINE2 = 0.9999;
 
@@ -62,22 +65,33 @@ void worldFrame(vec3 a, mat3 viewFromWorld, out vec3 s, out vec3 t)
     t = viewFromWorld[2] - dot(h, viewFromWorld[2]) * k;
 }
 
+// Returns the shear of a facet (MIN_FACET_SLOPE): the point at w from the centre moves along n by this
+// times dot(w, toCentre). n: unit normal; toCentre: unit vector.
+float shearOf(vec3 n, vec3 toCentre)
+{
+    const float sine = dot(n, toCentre);
+    return abs(sine) < MIN_FACET_SLOPE ? sine - (sine < 0.0 ? -MIN_FACET_SLOPE : MIN_FACET_SLOPE) : 0.0;
+}
+
 // Returns a facet without kappa. u, v: unit vectors along the half axes; lengths in metres. For a facet
 // at infinity, everything is relative to the length of `centre`, and the caller sets inverseDistance.
 Facet makeFacet(vec3 centre, vec3 u, float lengthU, vec3 v, float lengthV, uint shape, uvec2 members)
 {
     const float distance = length(centre);
     const float scale = 1.0 / max(distance + max(lengthU, lengthV), 1e-30);
+    const vec3 toCentre = centre / max(distance, 1e-30), n = cross(u, v);
     Facet f;
-    f.centre = centre * scale;
     f.halfU = u * (max(lengthU, distance * MIN_FACET_SIZE) * scale);
     f.halfV = v * (max(lengthV, distance * MIN_FACET_SIZE) * scale);
+    const vec3 shear = shearOf(n, toCentre) * n;
+    const float alongU = dot(f.halfU, toCentre), alongV = dot(f.halfV, toCentre);
+    f.centre = centre * scale + min(abs(alongU) + abs(alongV), 0.5 * distance * scale) * shear;
+    f.halfU += alongU * shear;
+    f.halfV += alongV * shear;
     f.front = FrontSurface(scale, 0.0, 1.0);
     f.shape = shape;
-    const float sides = length(f.halfU) * length(f.halfV) * length(f.centre);
-    const float slope = abs(dot(cross(f.halfU, f.halfV), f.centre));
     // Written so that NaN and a receiver in the centre of the light are false.
-    const bool seen = slope > 0.0 && slope >= MIN_FACET_SLOPE * sides;
+    const bool seen = abs(dot(cross(f.halfU, f.halfV), f.centre)) > 0.0;
     f.members = seen ? members : uvec2(0u);
     return f;
 }
