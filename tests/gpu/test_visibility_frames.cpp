@@ -9,6 +9,7 @@
 
 #include "generate/shapes.h"
 #include "gpu/lighting_harness.h"
+#include "gpu/random_frame.h"
 #include "harness/full_tests.h"
 
 namespace candelabra::test
@@ -93,7 +94,7 @@ protected:
         CndError error{};
         occluders_.resize(occluders_.size() + count);
         EXPECT_EQ(cndAddOccluders(lighting(), count, instances.data(),
-                                  &occluders_[occluders_.size() - count], &error),
+                                  occluders_.data() + occluders_.size() - count, &error),
                   CND_SUCCESS)
             << error.message;
         instances_.insert(instances_.end(), instances.begin(), instances.end());
@@ -373,6 +374,44 @@ TEST_F(VisibilityFrames, ListsKeepTheBitsOfOddOccluders)
         EXPECT_GT(listed.stats.partlyLitPairs, 500u) << type;
         EXPECT_TRUE(agree(listed.radiance, walked.radiance)) << type;
     }
+}
+
+// Any camera, size and depth convention, lights of all types, and occluders of any shape and size.
+// Five scenes by default, 1,000 with tools/test --full.
+TEST_F(VisibilityFrames, RandomScenesEqualBruteForce)
+{
+    const uint32_t scenes = fullTests() ? 1000 : 5;
+    uint64_t won = 0, hidden = 0, tested = 0, walked = 0, partlyLit = 0;
+    for (uint32_t seed = 0; seed < scenes; ++seed) {
+        RandomFrame frame(seed);
+        const CpuGBuffer g = frame.gbuffer();
+        std::vector<CndLight> lights = frame.lights(g);
+        lights.resize(std::min<size_t>(lights.size(), 30));
+        const std::vector<CndLight> others = everyType(g, 2);
+        lights.insert(lights.end(), others.begin(), others.end());
+        removeOccluders();
+        addOccluders(seed % 50, seed);
+        addBoxes(seed % 30, seed % 2 ? 0.5 + seed % 7 : 10, seed);
+        addSheets(bentSheet(float(seed % 5) * 0.2f), seed);
+        RunOptions options{.specular = CND_SPECULAR_CONIC, .countPairs = true};
+        options.lighting = lighting();
+        const LightingResult listed = run(g, lights, options);
+        won += listed.stats.wonProofs;
+        hidden += listed.stats.hiddenEntries;
+        tested += listed.stats.testedEntries;
+        walked += listed.stats.walkedEntries;
+        partlyLit += listed.stats.partlyLitPairs;
+        options.culling = CND_CULLING_BRUTE;
+        const LightingResult brute = run(g, lights, options);
+        EXPECT_TRUE(agree(listed.radiance, brute.radiance, batchesOnLlvmpipe))
+            << "seed " << seed << ", " << g.width << "x" << g.height;
+        EXPECT_EQ(listed.stats.unfinishedPairs + brute.stats.unfinishedPairs, 0u) << seed;
+    }
+    std::cout << won << " proofs won; of the lights in lists " << hidden << " are hidden, "
+              << tested << " tested and " << walked << " walked for; " << partlyLit
+              << " pixels see part of a light\n";
+    for (const uint64_t count : {won, hidden, tested, walked, partlyLit})
+        EXPECT_GT(count, scenes);
 }
 
 // Lights that boxes are proven to hide are in no list, and no pixel changes: brute force has no
