@@ -544,7 +544,7 @@ TEST_F(ProgramTest, BenchVisibilityComparesShadowsWithRays)
     const Outcome outcome = run("bench visibility rooms --lights 40 --size 64x36 --rounds 1 "
                                 "--pixels 30 --json v.json --pictures --out v -q --validate");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_NE(outcome.out.find("16 random rays"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("256 random rays"), std::string::npos) << outcome.out;
     const auto json = nlohmann::json::parse(text("v.json"));
     EXPECT_EQ(test::keyFaults(json, "bench-visibility"), "");
     const auto& pairs = json["pairs"];
@@ -556,9 +556,13 @@ TEST_F(ProgramTest, BenchVisibilityComparesShadowsWithRays)
     EXPECT_GT(json["pixelsCompared"], 2);
     EXPECT_EQ(json["leaks"], 0);
     const auto& errors = json["errors"]; // of the engine, without shadows, and of rays
-    ASSERT_EQ(errors.size(), 6u);
+    ASSERT_EQ(errors.size(), 8u);
     EXPECT_LT(errors[0]["ofPixel"]["meanPercent"], 2.0);
     EXPECT_GT(errors[1]["ofPixel"]["meanPercent"], 5.0);
+    EXPECT_GT(errors[0]["pairVisibilityMs"], 0.0);
+    EXPECT_EQ(errors[1]["pairVisibilityMs"], 0.0);
+    EXPECT_GT(errors[2]["pairVisibilityMs"], 0.0);
+    EXPECT_GT(errors[7]["pairVisibilityMs"], 255 * errors[3]["pairVisibilityMs"].get<double>());
     size_t compared = 0;
     const app::Image truth = app::loadPfm(path("v/truth.pfm"));
     const app::Image unshadowed = app::loadPfm(path("v/no-shadows.pfm"));

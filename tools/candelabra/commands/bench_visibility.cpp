@@ -66,13 +66,16 @@ int visibility(const ProgramContext& program, const VisibilityArguments& a)
                                       .rounds = rounds,
                                       .pixels = pixels,
                                       .pictures = a.pictures};
-    Renderer renderer(context, scene,
-                      {.size = size, .framesInFlight = 1, .shadows = points, .stamps = true});
+    const RendererOptions drawn{
+        .size = size, .framesInFlight = 1, .shadows = points, .stamps = true};
+    Renderer renderer(context, scene, drawn);
     VisibilityCost cost;
     VisibilityErrors errors;
     {
         Progress progress(visibilitySteps(settings), !program.quiet);
         cost = measureVisibilityCost(context, renderer, settings, progress);
+        Renderer pointLights(context, withPointLights(scene), drawn);
+        cost.rayMs = measureRayMs(context, pointLights, settings, progress);
         errors = measureVisibilityErrors(context, renderer, model, settings, progress);
     }
     Json document{{"schema", "candelabra bench visibility 1"},
@@ -108,7 +111,7 @@ void addBenchVisibility(CLI::App& bench, Run& run)
     addOption(*command, "--pixels", a->pixels, "N",
               "number of random pixels that are compared with the truth");
     addOption(*command, "--rounds", a->rounds, "N",
-              "rounds; each round draws the frame with and without shadows");
+              "rounds; each round draws the frame with and without shadows, and with point lights");
     command->add_flag(
         "--pictures", a->pictures,
         "write the frame, the truth and what the other rows draw at the pixels that are "
@@ -121,7 +124,11 @@ void addBenchVisibility(CLI::App& bench, Run& run)
         "what a frame takes more with shadows, over all threads; only a CPU device draws with it.\n"
         "The truth is that of candelabra truth. The other rows multiply the truth of\n"
         "each light without shadows by the share of rays that reach it, in double precision, so\n"
-        "their errors are those of the rays alone. Emitters are not drawn.\n\n"
+        "their errors are those of the rays and of this product. A ray's time is that of\n"
+        "pair_visibility, per pair that asks, if a point light or a directional light replaces\n"
+        "each light. All rays of a tile then go to one place, and other pairs ask. Emitters are "
+        "not\n"
+        "drawn.\n\n"
         "Example:\n"
         "  candelabra bench visibility rooms --size 320x180 --pixels 200");
     command->callback([&run, a] {

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <ctime>
 #include <mutex>
+#include <numbers>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <thread>
 
@@ -29,10 +31,16 @@ namespace candelabra::app
 namespace
 {
 
-constexpr const char* rivalNames[] = {"no shadows", "1 ray to the centre", "1 random ray",
-                                      "4 random rays", "16 random rays"};
-constexpr size_t rivalCount = std::size(rivalNames);
-constexpr int mostRays = 16;
+struct RivalRow {
+    const char* name;
+    std::optional<int> rays; // per pair of a pixel and a light
+};
+constexpr RivalRow rivals[] = {{"no shadows", 0},       {"1 ray to the centre", 1},
+                               {"1 random ray", 1},     {"4 random rays", 4},
+                               {"16 random rays", 16},  {"64 random rays", 64},
+                               {"256 random rays", 256}};
+constexpr size_t rivalCount = std::size(rivals);
+constexpr size_t firstRandom = 2;
 
 double medianOfPass(const FrameSeries& series, const std::string& name)
 {
@@ -68,15 +76,16 @@ public:
     // Returns what each rival takes for the visible share.
     std::array<double, rivalCount> shares(Random& random) const
     {
+        std::array<double, rivalCount> out;
+        out.fill(1);
         if (emitter_.contain())
-            return {1, 1, 1, 1, 1};
-        std::array<double, rivalCount> out{1, isSeen(centre()) ? 1.0 : 0.0};
-        int seen = 0;
-        size_t rival = 2;
-        for (int ray = 1; ray <= mostRays; ++ray) {
-            seen += isSeen(randomPoint(random));
-            if (ray == 1 || ray == 4 || ray == mostRays)
-                out[rival++] = double(seen) / ray;
+            return out;
+        out[1] = isSeen(centre()) ? 1 : 0;
+        int seen = 0, cast = 0;
+        for (size_t rival = firstRandom; rival < rivalCount; ++rival) {
+            for (; cast < *rivals[rival].rays; ++cast)
+                seen += isSeen(randomPoint(random));
+            out[rival] = double(seen) / cast;
         }
         return out;
     }
@@ -188,7 +197,26 @@ ErrorSpread errorsOver(const std::vector<double>& whole, const std::vector<doubl
 
 double visibilitySteps(const VisibilitySettings& s)
 {
-    return double(maxWarmUp) + 2.0 * s.rounds + s.pixels;
+    return 2.0 * double(maxWarmUp) + 3.0 * s.rounds + s.pixels;
+}
+
+Scene withPointLights(Scene scene)
+{
+    constexpr float pi = std::numbers::pi_v<float>;
+    for (CndLight& light : scene.lights) {
+        float power[3];
+        if (light.type == CND_LIGHT_DISTANT_SPHERE) {
+            light.type = CND_LIGHT_DIRECTIONAL;
+            for (float& emission : light.emission)
+                emission *= pi * light.radius * light.radius;
+        } else if (!cndIsPunctual(light.type) &&
+                   cndLuminousPowerOfLight(&light, power, nullptr) == CND_SUCCESS) {
+            light.type = CND_LIGHT_POINT;
+            for (int c = 0; c < 3; ++c)
+                light.emission[c] = power[c] / (4 * pi);
+        }
+    }
+    return scene;
 }
 
 VisibilityCost measureVisibilityCost(const VulkanContext& context, Renderer& renderer,
@@ -214,6 +242,17 @@ VisibilityCost measureVisibilityCost(const VulkanContext& context, Renderer& ren
     }
     out.cpuMs = medianOf(more);
     return out;
+}
+
+double measureRayMs(const VulkanContext& context, Renderer& pointLights,
+                    const VisibilitySettings& settings, Progress& progress)
+{
+    const Profile profile = profileFrames(context, pointLights,
+                                          {.variants = {settings.frame}, .rounds = settings.rounds},
+                                          [&] { progress.advance(1); });
+    const uint64_t asked = countPairs(context, pointLights, settings.frame).askedPairs;
+    return medianOfPass(profile.series[0], "pair_visibility") /
+           double(std::max<uint64_t>(asked, 1));
 }
 
 VisibilityErrors measureVisibilityErrors(const VulkanContext& context, Renderer& renderer,
@@ -245,8 +284,8 @@ VisibilityErrors measureVisibilityErrors(const VulkanContext& context, Renderer&
         work();
     }
     VisibilityErrors out;
-    std::vector<double> truths, ours, rivals[rivalCount];
-    const std::vector<double>& unshadowed = rivals[0];
+    std::vector<double> truths, ours, others[rivalCount];
+    const std::vector<double>& unshadowed = others[0];
     for (size_t i = 0; i < pixels.size(); ++i) {
         if (!(luminanceOf(found[i].rivals[0]) > 0))
             continue;
@@ -254,17 +293,17 @@ VisibilityErrors measureVisibilityErrors(const VulkanContext& context, Renderer&
         truths.push_back(luminanceOf(found[i].truth));
         ours.push_back(luminanceOf({p[0], p[1], p[2]}));
         for (size_t rival = 0; rival < rivalCount; ++rival)
-            rivals[rival].push_back(luminanceOf(found[i].rivals[rival]));
+            others[rival].push_back(luminanceOf(found[i].rivals[rival]));
         out.leaks += !(truths.back() > 0) && ours.back() > 0;
     }
     out.compared = truths.size();
-    const auto add = [&](const char* name, const std::vector<double>& values) {
-        out.rows.push_back(
-            {name, errorsOver(truths, values, truths), errorsOver(unshadowed, values, truths)});
+    const auto add = [&](const RivalRow& row, const std::vector<double>& values) {
+        out.rows.push_back({row.name, row.rays, errorsOver(truths, values, truths),
+                            errorsOver(unshadowed, values, truths)});
     };
-    add("this engine", ours);
+    add({"this engine", {}}, ours);
     for (size_t rival = 0; rival < rivalCount; ++rival)
-        add(rivalNames[rival], rivals[rival]);
+        add(rivals[rival], others[rival]);
     if (!settings.pictures)
         return out;
     const auto addPicture = [&](const char* name, auto&& valueOf) {
@@ -278,9 +317,36 @@ VisibilityErrors measureVisibilityErrors(const VulkanContext& context, Renderer&
     out.pictures.emplace_back("this engine", image);
     addPicture("truth", [](const PixelValues& v) { return v.truth; });
     for (size_t rival = 0; rival < rivalCount; ++rival)
-        addPicture(rivalNames[rival], [&](const PixelValues& v) { return v.rivals[rival]; });
+        addPicture(rivals[rival].name, [&](const PixelValues& v) { return v.rivals[rival]; });
     return out;
 }
+
+namespace
+{
+
+// Returns the time of pair_visibility if each pair that asks takes one ray. 0: it is not known.
+double oneRayMs(const VisibilityCost& cost)
+{
+    return cost.rayMs * double(cost.stats.askedPairs);
+}
+
+// Returns the time of pair_visibility in a frame with the visible shares of a row.
+std::optional<double> visibilityMs(const VisibilityCost& cost, const VisibilityError& row)
+{
+    if (!row.rays)
+        return cost.visibilityMs;
+    if (*row.rays > 0 && oneRayMs(cost) == 0)
+        return {};
+    return *row.rays * oneRayMs(cost);
+}
+
+// Returns how many rays take as long as a pair that asks. 0: it is not known.
+double raysPerPair(const VisibilityCost& cost)
+{
+    return oneRayMs(cost) > 0 ? cost.visibilityMs / oneRayMs(cost) : 0;
+}
+
+} // namespace
 
 std::string visibilityText(const VisibilityCost& cost, const VisibilityErrors& errors,
                            PixelSize size)
@@ -298,11 +364,15 @@ std::string visibilityText(const VisibilityCost& cost, const VisibilityErrors& e
                        threeDigits(1e3 * cost.cpuMs / pairs));
     out += fmt::format("the frame takes {:.3f} [{:.3f}, {:.3f}] times as long as without shadows\n",
                        cost.ratio.median, cost.ratio.low, cost.ratio.high);
-    Table table({"visible share of a light", "mean error", "p95", "p99", "of the pixel: mean",
-                 "p95", "p99"});
+    if (raysPerPair(cost) > 0)
+        out += fmt::format("a pair that asks takes as long as {} rays\n",
+                           threeDigits(raysPerPair(cost)));
+    Table table({"visible share of a light", "pair_visibility, ms", "mean error", "p95", "p99",
+                 "of the pixel: mean", "p95", "p99"});
     const auto percent = [](double x) { return fmt::format("{:.3f}%", 100 * x); };
     for (const VisibilityError& e : errors.rows) {
-        std::vector<std::string> cells{e.name};
+        const auto ms = visibilityMs(cost, e);
+        std::vector<std::string> cells{e.name, ms ? threeDigits(*ms) : "-"};
         for (const ErrorSpread& error : {e.ofUnshadowed, e.ofPixel})
             for (const double x : {error.mean, error.spread.p95, error.spread.p99})
                 cells.push_back(percent(x));
@@ -310,7 +380,8 @@ std::string visibilityText(const VisibilityCost& cost, const VisibilityErrors& e
     }
     table.note(fmt::format("Errors of the luminance of {}, relative to the pixel without shadows, "
                            "and to the pixel itself where it has light. {} that should be black "
-                           "{} light.",
+                           "{} light. A ray takes as long as a pair that asks in the same scene "
+                           "with point lights.",
                            counted(errors.compared, "random pixel"), counted(errors.leaks, "pixel"),
                            errors.leaks == 1 ? "has" : "have"));
     return out + table.text();
@@ -326,10 +397,13 @@ Json visibilityJson(const VisibilityCost& cost, const VisibilityErrors& errors)
                     {"p99Percent", 100 * e.spread.p99}};
     };
     Json list = Json::array();
-    for (const VisibilityError& e : errors.rows)
+    for (const VisibilityError& e : errors.rows) {
+        const auto ms = visibilityMs(cost, e);
         list.push_back({{"name", e.name},
+                        {"pairVisibilityMs", ms ? Json(*ms) : Json()},
                         {"ofUnshadowed", percent(e.ofUnshadowed)},
                         {"ofPixel", percent(e.ofPixel)}});
+    }
     return {{"pairs",
              {{"reaching", s.contributingPairs},
               {"asked", s.askedPairs},
@@ -343,6 +417,7 @@ Json visibilityJson(const VisibilityCost& cost, const VisibilityErrors& errors)
             {"askPairsMs", cost.askMs},
             {"listOccludersMs", cost.listMs},
             {"pairVisibilityMs", cost.visibilityMs},
+            {"raysPerPair", raysPerPair(cost)},
             {"cpuMicrosecondsPerPair", 1e3 * cost.cpuMs / pairs},
             {"timeOverUnshadowed",
              {{"median", cost.ratio.median}, {"low", cost.ratio.low}, {"high", cost.ratio.high}}},

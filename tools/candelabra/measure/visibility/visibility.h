@@ -2,6 +2,7 @@
 // Measures what soft shadows cost and how exact they are, beside rays as rivals.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,7 @@ struct ErrorSpread {
 // Errors of the luminance of pixels.
 struct VisibilityError {
     std::string name;
+    std::optional<int> rays;  // per pair of a pixel and a light, in place of the engine's points
     ErrorSpread ofPixel;      // relative to the truth, where it has light
     ErrorSpread ofUnshadowed; // relative to the truth without shadows, also in full shadow
 };
@@ -47,12 +49,22 @@ struct VisibilityCost {
     CndLightingStats stats{}; // with counted pairs
     // Medians of the passes prove_dark, ask_pairs, list_occluders and pair_visibility.
     double proveMs = 0, askMs = 0, listMs = 0, visibilityMs = 0;
+    double rayMs = 0;  // time of a ray (measureRayMs)
     double cpuMs = 0;  // CPU time that a frame takes with shadows, less that without
     PairedRatio ratio; // GPU time with shadows over that without
 };
 
 VisibilityCost measureVisibilityCost(const VulkanContext& context, Renderer& renderer,
                                      const VisibilitySettings& settings, Progress& progress);
+
+// Returns the scene with a point light of the same luminous power in place of each light that has a
+// size, and a directional light in place of each distant sphere.
+Scene withPointLights(Scene scene);
+
+// Returns the time of pair_visibility per pair that asks. In a scene withPointLights(), that is
+// what a ray takes.
+double measureRayMs(const VulkanContext& context, Renderer& pointLights,
+                    const VisibilitySettings& settings, Progress& progress);
 
 // Returns the errors of the renderer's frame and those of rivals: the truth of each light without
 // shadows, multiplied by the share of rays that reach it, and without rays all of it. `model`: the
@@ -61,7 +73,7 @@ VisibilityErrors measureVisibilityErrors(const VulkanContext& context, Renderer&
                                          const reference::Scene& model,
                                          const VisibilitySettings& settings, Progress& progress);
 
-// What the progress of both functions counts.
+// What the progress of these functions counts.
 double visibilitySteps(const VisibilitySettings& settings);
 
 std::string visibilityText(const VisibilityCost& cost, const VisibilityErrors& errors,
