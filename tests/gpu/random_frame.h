@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A frame with any camera, size, depth convention and lights, which its seed decides.
+// A RandomFrame has any camera, size, depth convention and lights. Its seed decides them.
 #pragma once
 
 #include <cmath>

@@ -247,7 +247,7 @@ TEST_F(VisibilityBits, LightInFullViewKeepsThem)
             drawn[0] = drawFrame(own.view, frameOf(g, images, options), images);
             continue;
         }
-        // The first mesh has a single triangle, which lies behind the camera and hides no light.
+        // The first mesh is one triangle. The triangle is behind the camera, so it hides no light.
         // The second mesh has 17 triangles between the surfaces and the lights. They hide some of
         // the lights.
         std::vector<float> positions = {-9, -9, 5, 9, -9, 5, 0, 9, 5};

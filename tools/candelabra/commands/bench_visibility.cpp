@@ -126,9 +126,8 @@ void addBenchVisibility(CLI::App& bench, Run& run)
         "each light without shadows by the share of rays that reach it, in double precision, so\n"
         "their errors are those of the rays and of this product. A ray's time is that of\n"
         "pair_visibility, per pair that asks, if a point light or a directional light replaces\n"
-        "each light. All rays of a tile then go to one place, and other pairs ask. Emitters are "
-        "not\n"
-        "drawn.\n\n"
+        "each light. All rays of a tile then go to one place, and other pairs ask.\n"
+        "Emitters are not drawn.\n\n"
         "Example:\n"
         "  candelabra bench visibility rooms --size 320x180 --pixels 200");
     command->callback([&run, a] {

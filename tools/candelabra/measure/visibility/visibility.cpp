@@ -33,7 +33,7 @@ namespace
 
 struct RivalRow {
     const char* name;
-    std::optional<int> rays; // per pair of a pixel and a light
+    std::optional<int> rays; // as VisibilityError::rays
 };
 constexpr RivalRow rivals[] = {{"no shadows", 0},       {"1 ray to the centre", 1},
                                {"1 random ray", 1},     {"4 random rays", 4},

@@ -49,7 +49,7 @@ struct VisibilityCost {
     CndLightingStats stats{}; // with counted pairs
     // Medians of the passes prove_dark, ask_pairs, list_occluders and pair_visibility.
     double proveMs = 0, askMs = 0, listMs = 0, visibilityMs = 0;
-    double rayMs = 0;  // time of a ray (measureRayMs)
+    double rayMs = 0;  // time of a ray (measureRayMs); 0: not known
     double cpuMs = 0;  // CPU time that a frame takes with shadows, less that without
     PairedRatio ratio; // GPU time with shadows over that without
 };
@@ -61,8 +61,8 @@ VisibilityCost measureVisibilityCost(const VulkanContext& context, Renderer& ren
 // size, and a directional light in place of each distant sphere.
 Scene withPointLights(Scene scene);
 
-// Returns the time of pair_visibility per pair that asks. In a scene withPointLights(), that is
-// what a ray takes.
+// Returns the time of pair_visibility per pair that asks, in milliseconds; 0 if no pair asks. In a
+// scene withPointLights(), that is what a ray takes.
 double measureRayMs(const VulkanContext& context, Renderer& pointLights,
                     const VisibilitySettings& settings, Progress& progress);
 
