@@ -209,7 +209,7 @@ bool findItems(ShaftEnds ends, uint layers, uint ignored, bool walks, out uint c
 }
 
 // Sets the end of the shaft at the light. Returns false if the pairs of the light are not listed,
-// because samples are near it, or see it so flat that light coordinates are not precise.
+// because samples are near it, or light coordinates are not precise.
 bool reachesLight(uint light, FacetShape given, inout ShaftEnds ends)
 {
     const vec4 centreRadius = lightCentre(light);
@@ -238,10 +238,10 @@ bool reachesLight(uint light, FacetShape given, inout ShaftEnds ends)
         sine = 0.5 * v / u;
         ends.radius *= 2.0;
     }
-    ends.radius += 2.0 * MIN_FACET_SIZE * distances.y;
+    ends.radius = SHEARED_RADIUS * ends.radius + 2.0 * MIN_FACET_SIZE * distances.y;
     const float least = distances.x * MIN_FACET_SIZE; // length of the facet's half axes
     ends.rounding = facetRounding(max(u, least), max(v, least), sine, distanceRatio);
-    return isFar && sine > 0.0 && ends.rounding < MAX_ROUNDING;
+    return isFar && ends.rounding < MAX_ROUNDING;
 }
 
 // Returns whether the triangles of one instance in the list hide the light from all samples. The other

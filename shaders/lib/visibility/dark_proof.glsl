@@ -55,12 +55,14 @@ bool shaftTo(vec3 box, uint type, vec3 toLight, float boundingRadius, LightShape
     const float nearest = length(max(abs(toLight) - box, vec3(0.0)));
     const float farthest = length(toLight) + length(box) + boundingRadius;
     float slope = 1.0, radius = boundingRadius;
-    if (type == LIGHT_DISC)
-        slope = leastSlope(box, toLight, shape.axisU, farthest);
-    if (type == LIGHT_RECTANGLE || type == LIGHT_POLYGON)
-        slope = leastSlope(
-            box, toLight, cross(shape.axisU / length(shape.axisU), shape.axisV / length(shape.axisV)),
-            farthest);
+    if (type == LIGHT_DISC || type == LIGHT_RECTANGLE || type == LIGHT_POLYGON) {
+        const vec3 normal =
+            type == LIGHT_DISC
+                ? shape.axisU
+                : cross(shape.axisU / length(shape.axisU), shape.axisV / length(shape.axisV));
+        slope = leastSlope(box, toLight, normal, farthest);
+        radius *= SHEARED_RADIUS;
+    }
     if (type == LIGHT_TUBE) {
         radius = FRONT_OF_TUBE * boundingRadius;
         slope = shape.radius / (2.0 * boundingRadius); // half of the least one

@@ -49,7 +49,10 @@ const float MIN_FACET_SIZE = 6.103515625e-5; // 2^-14
 // axes, to the side of its plane that the receiver is on: otherwise a wall that it lies flush in would
 // hide them. (Some points of large facets nearby move to the other side.) It is seen at half of this
 // sine or more. Facets of receivers on both sides of the plane differ, but light there is almost 0.
-const float MIN_FACET_SLOPE = 1.953125e-3; // 2^-9
+const float MIN_FACET_SLOPE = 0.015625; // 2^-6
+// Bound of the distance of a flat light's points from its centre, over its bounding radius: a shear
+// moves them by at most 2 sqrt(2) MIN_FACET_SLOPE times that, at a right angle to its plane.
+const float SHEARED_RADIUS = 1.0 + 4.0 * MIN_FACET_SLOPE * MIN_FACET_SLOPE;
 // From this squared sine of its angular radius on, a sphere is lit as if the receiver were inside.
 const float MAX_FACET_SINE2 = 0.9999;
 

@@ -44,11 +44,12 @@ float facetRounding(float lengthU, float lengthV, float sine, float distanceRati
     return COORDINATE_SLACK * (4.0 + ratio + 2.0 / distanceRatio) / sine;
 }
 
-// Returns the lowest sine of the elevation at which the samples see a flat light. normal: unit.
+// Returns the lowest sine of the elevation at which the samples see the facet of a flat light. normal:
+// unit.
 float lowestSine(ShaftEnds s, vec3 normal)
 {
     const float height = abs(dot(normal, s.ball - s.middle)) - dot(abs(normal), s.halfBox);
-    return height / distancesFrom(s, s.ball).y;
+    return max(height / distancesFrom(s, s.ball).y, 0.5 * MIN_FACET_SLOPE);
 }
 
 // Returns the largest distance of a point from the samples on each axis.
