@@ -11,8 +11,8 @@
 #include <gtest/gtest.h>
 
 #include "fit/conic_objective.h"
+#include "harness/csv.h"
 #include "harness/paths.h"
-#include "io/csv.h"
 #include "shared/conic_constants.h"
 
 namespace candelabra::test
@@ -20,9 +20,9 @@ namespace candelabra::test
 namespace
 {
 
-app::CsvFile record(const char* table)
+auto record(const char* table)
 {
-    return app::readCsv(sourcePath(std::string("tools/bench/results/") + table));
+    return csvRows(sourcePath(std::string("tools/bench/results/") + table));
 }
 
 const fit::ConicObjective& checkObjective()
@@ -57,7 +57,7 @@ void expectRecorded(const std::map<std::string, std::string>& row, const char* c
 TEST(ConicFit, RecordHoldsTheCommittedConstants)
 {
     std::map<std::string, float> recorded;
-    for (const auto& row : record("conic-constants.csv").rows)
+    for (const auto& row : record("conic-constants.csv"))
         recorded[row.at("constant")] = std::stof(row.at("shaders"));
     EXPECT_EQ(recorded.size(), fit::conicConstants().size());
     for (const fit::ConicConstant& c : fit::conicConstants()) {
@@ -71,7 +71,7 @@ TEST(ConicFit, RecordHoldsTheirResidualsOnAFewGroups)
     const fit::ConicResiduals residuals = checkObjective().residuals({});
     const double cost = checkObjective().cost({});
     int compared = 0;
-    for (const auto& row : record("conic-fit.csv").rows) {
+    for (const auto& row : record("conic-fit.csv")) {
         if (row.at("groups") != "check")
             continue;
         const fit::MethodFigures& method =

@@ -1,32 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
-// candelabra report: makes the main measurements in a short form, and one page of the results that
-// needs no other file.
+// candelabra report: makes the main measurements in a short form. A script (tools/report) makes one
+// page of their results.
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
 #include <memory>
+#include <span>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-#include <sys/resource.h>
 
 #include "candelabra/candelabra.hpp"
 #include "commands/bench_commands.h"
 #include "commands/messages.h"
 #include "io/error.h"
-#include "io/html_page.h"
-#include "io/markup.h"
-#include "io/statistics.h"
-#include "io/table.h"
+#include "io/image.h"
+#include "io/report.h"
 #include "load/load.h"
-#include "measure/accuracy/accuracy_page.h"
+#include "measure/accuracy/image_level.h"
+#include "measure/accuracy/kernel_level.h"
 #include "measure/culling/culling.h"
 #include "measure/frame/frames.h"
 #include "measure/frame/light_costs.h"
 #include "measure/profile/profile_frames.h"
-#include "measure/report/committed.h"
-#include "measure/report/report_page.h"
-#include "measure/report/sentences.h"
-#include "measure/report/weak_sides.h"
 #include "measure/stability/stability.h"
 #include "render/camera.h"
 #include "render/provenance.h"
@@ -43,31 +46,15 @@ struct ReportArguments {
     DeviceArguments device;
     std::string directory = "out/report", parts = "profile,accuracy,culling,stability";
     std::string lights = "4000", size = "640x360", frames = "20";
-    std::string committed; // empty: committedDirectory, if it is there
+    std::string committed;
 };
-
-constexpr const char* committedDirectory = "tools/bench/results"; // of the source tree
 
 struct ReportPlan {
     uint32_t lights, frames;
     PixelSize size;
+    std::filesystem::path directory;
 
     std::string sizeText() const { return fmt::format("{}x{}", size.width, size.height); }
-};
-
-struct PartTime {
-    std::string part;
-    double wallSeconds = 0, processorSeconds = 0;
-};
-
-// The results of the parts, for sentences and comparisons, and their additions to the page.
-struct Measured {
-    std::string pictures; // of the section that comes first
-    std::vector<ReportSection> sections;
-    Json document;
-    WeakSideFacts facts; // all results but those of stability
-    Stability stability;
-    std::vector<PartTime> times;
 };
 
 // One part while it is measured.
@@ -75,53 +62,46 @@ struct Part {
     const VulkanContext& context;
     const ReportPlan& plan;
     bool quiet;
-    Measured& out;
+    Json& document; // the part adds its results, "pictures" and "charts"
 };
 
 constexpr const char* reportScene = "hall";
 constexpr uint32_t reportRounds = uint32_t(minPairs); // the fewest that give an interval
 constexpr size_t costlyLights = 20;
 
-// Converts the display image to a picture of the page.
-DisplayImage displayed(const VulkanContext& context, const Renderer& renderer)
+// Saves a picture beside the page. chapter: the name of a part; title: what it shows.
+void addPicture(const Part& part, const char* chapter, const std::string& title, PixelSize size,
+                std::span<const uint8_t> rgb)
 {
-    const std::vector<uint8_t> rgb = readDisplay(context, renderer);
-    DisplayImage out{renderer.size().width, renderer.size().height, {}};
-    for (size_t i = 0; i + 2 < rgb.size(); i += 3)
-        out.pixels.emplace_back(rgb[i] / 255.0f, rgb[i + 1] / 255.0f, rgb[i + 2] / 255.0f);
-    return out;
+    Json& pictures = part.document["pictures"];
+    const std::string file = fmt::format("picture{}.png", pictures.size());
+    savePng((part.plan.directory / file).string(), size.width, size.height, rgb);
+    pictures.push_back({{"chapter", chapter}, {"title", title}, {"file", file}});
 }
 
-// The picture of the frame and its heat maps, with a slider between two of them.
-std::string pictures(const VulkanContext& context, Renderer& renderer, const FrameOptions& frame)
+void addChart(const Part& part, const char* chapter, const std::string& svg)
 {
-    std::vector<WipeChoice> choices;
-    for (const HeatMap map : {HeatMap::None, HeatMap::LightsPerPixel, HeatMap::Efficiency,
-                              HeatMap::PixelClass, HeatMap::Evaluated}) {
+    Json& charts = part.document["charts"];
+    const std::string file = fmt::format("chart{}.svg", charts.size());
+    writeText((part.plan.directory / file).string(), svg);
+    charts.push_back({{"chapter", chapter}, {"file", file}});
+}
+
+// The picture of the frame and its heat maps.
+void addFramePictures(const Part& part, Renderer& renderer, const FrameOptions& frame)
+{
+    const std::pair<HeatMap, const char*> maps[] = {
+        {HeatMap::None, "Candelabra"},
+        {HeatMap::LightsPerPixel, "how many lights the list of a pixel has"},
+        {HeatMap::Efficiency, "which share of them adds light"},
+        {HeatMap::PixelClass, "how a pixel finds its list"},
+        {HeatMap::Evaluated, "how many lights are evaluated"}};
+    for (const auto& [map, title] : maps) {
         FrameOptions options = frame;
         options.heatMap = map;
-        context.submitAndWait([&](VkCommandBuffer cmd) { renderer.record(cmd, 0, options); });
-        const std::string name = map == HeatMap::None ? "picture" : heatMapName(map);
-        const std::string id = "frame-" + name;
-        choices.push_back({id, name, figure(displayed(context, renderer), name, id)});
+        part.context.submitAndWait([&](VkCommandBuffer cmd) { renderer.record(cmd, 0, options); });
+        addPicture(part, "profile", title, renderer.size(), readDisplay(part.context, renderer));
     }
-    return wipe(choices, 0, 1);
-}
-
-// A bar for every pass, as long as its share of the longest.
-std::string passBars(const FrameSeries& series)
-{
-    double most = 0;
-    for (const FrameSeries::Pass& pass : series.passes)
-        most = std::max(most, medianOf(pass.ms));
-    std::string out = "<div class=\"bars\">\n";
-    for (const FrameSeries::Pass& pass : series.passes) {
-        const double ms = medianOf(pass.ms);
-        out += fmt::format("<div><span>{} {} ms</span><div class=\"bar\" style=\"width: {:.1f}%\">"
-                           "</div></div>\n",
-                           escaped(pass.name), threeDigits(ms), most > 0 ? 100 * ms / most : 0);
-    }
-    return out + "</div>\n";
 }
 
 void profilePart(const Part& part)
@@ -143,35 +123,43 @@ void profilePart(const Part& part)
     }
     const FrameSeries& series = profile.series[0];
     const LightCosts costs = lightCosts(part.context, renderer, scene, frame);
-    Table times = seriesTable(series);
-    times.setTitle("The passes of a frame");
-    times.note(overheadText(series, profile.stampMs));
-    Table lights = lightCostTable(costs, scene, costlyLights, series.shadingMs());
-    lights.setTitle("The costliest lights");
-    part.out.sections.push_back(
-        {.id = "profile",
-         .title = "Where the time of a frame goes",
-         .intro = fmt::format(
-             "The generated scene \"{}\" with {} lights was drawn {} times at {}. The slider "
-             "compares its picture with maps of the work per pixel: how many lights the pixel's "
-             "list has, which share of them adds light, how the pixel finds its list, and how many "
-             "lights are evaluated. The bars are the median times of the passes: gbuffer_raster "
-             "draws the surfaces, cluster_lists finds the lights of groups of pixels (clusters), "
-             "and shade_tiles evaluates them.",
-             reportScene, grouped(plan.lights), plan.frames, plan.sizeText()),
-         .html = pictures(part.context, renderer, frame) + passBars(series),
-         .tables = {times},
-         .command =
-             fmt::format("candelabra profile {} --lights {} --size {} --frames {} "
-                         "--light-costs {}",
-                         reportScene, plan.lights, plan.sizeText(), plan.frames, costlyLights),
-         .details = {lights}});
-    part.out.document["profile"] = {
+    addFramePictures(part, renderer, frame);
+    part.document["profile"] = {
+        {"command",
+         fmt::format("candelabra profile {} --lights {} --size {} --frames {} "
+                     "--light-costs {}",
+                     reportScene, plan.lights, plan.sizeText(), plan.frames, costlyLights)},
         {"scene", sceneJson(scene, renderer)},
+        {"image", {{"widthPixels", plan.size.width}, {"heightPixels", plan.size.height}}},
         {"settled", profile.settled},
         {"time", toJson(series)},
         {"overhead", overheadJson(series, profile.stampMs)},
         {"lightCosts", lightCostJson(costs, scene, costlyLights, series.shadingMs())}};
+}
+
+// Saves pictures of the scenes by Candelabra, of the truth and by the method of games.
+void addScenePictures(const Part& part, const std::vector<ImageScene>& scenes)
+{
+    const auto add = [&](const std::string& title, const DisplayImage& image) {
+        std::vector<uint8_t> rgb;
+        for (const glm::vec3& p : image.pixels)
+            for (int channel = 0; channel < 3; ++channel)
+                rgb.push_back(uint8_t(std::lround(std::clamp(p[channel], 0.0f, 1.0f) * 255)));
+        addPicture(part, "accuracy", title, {image.width, image.height}, rgb);
+    };
+    for (const ImageScene& scene : scenes)
+        for (const MeasuredMethod& method :
+             {MeasuredMethod(CND_SPECULAR_CONIC), MeasuredMethod(CND_SPECULAR_KARIS)})
+            for (const ImagePoint& p : scene.points) {
+                if (p.method != method)
+                    continue;
+                const Displayed displayed = displayBoth(scene.truth, p.radiance);
+                const bool own = method == MeasuredMethod(CND_SPECULAR_CONIC);
+                add(fmt::format("{}: {}", scene.name, own ? "Candelabra" : methodName(method)),
+                    displayed.value);
+                if (own)
+                    add(scene.name + ": truth", displayed.truth);
+            }
 }
 
 void accuracyPart(const Part& part)
@@ -182,33 +170,25 @@ void accuracyPart(const Part& part)
         .groups = 60};
     kernels.timing.lanes = 1u << 13;
     kernels.timing.rounds = reportRounds;
-    const ImageLevelSettings images{.scenes = {"glossy floor cut by a light",
-                                               "large light at grazing angles",
-                                               "a row of metal under five spheres", "showcase"},
-                                    .size = {144, 108},
-                                    .rounds = 3};
-    Measured& out = part.out;
+    const ImageLevelSettings images{
+        .methods = {CND_SPECULAR_KARIS, CND_SPECULAR_CONIC, CND_SPECULAR_CONIC_FULL,
+                    CND_SPECULAR_SAMPLED, Rival::Ltc},
+        .scenes = {"glossy floor cut by a light", "large light at grazing angles",
+                   "a row of metal under five spheres", "showcase"},
+        .size = {144, 108},
+        .rounds = 3};
+    KernelLevel level;
     {
         Progress progress(kernelLevelSteps(kernels), !part.quiet);
-        out.facts.kernels = measureKernelLevel(part.context, kernels, progress);
+        level = measureKernelLevel(part.context, kernels, progress);
     }
     Progress progress(imageLevelSteps(images), !part.quiet);
-    out.facts.scenes = measureImages(part.context, images, progress);
-    out.pictures = accuracyPictures(out.facts.scenes);
-    out.sections.push_back(
-        {.id = "accuracy",
-         .title = "Accuracy: how far the light is from the truth, and at what time",
-         .intro = "Single lights at single pixels come first: surfaces of every roughness and "
-                  "lights of every size, evaluated by each method and by quadrature in double "
-                  "precision. Whole images of small scenes follow. An error of 1 percent means "
-                  "that the light is wrong by 1 percent of the brightest reflection that such a "
-                  "light has on such a surface.",
-         .html = accuracyPlots(out.facts.kernels, out.facts.scenes, part.context.info()),
-         .tables = accuracyTables(out.facts.kernels, out.facts.scenes),
-         .command = "candelabra report --parts accuracy",
-         .details = accuracyDetails(out.facts.kernels, out.facts.scenes)});
-    out.document["accuracy"] = {{"kernels", kernelJson(kernels, out.facts.kernels)},
-                                {"images", imageJson(images, out.facts.scenes)}};
+    const std::vector<ImageScene> scenes = measureImages(part.context, images, progress);
+    addScenePictures(part, scenes);
+    addChart(part, "accuracy", imagePlot(scenes, part.context.info()));
+    part.document["accuracy"] = {{"command", "candelabra report --parts accuracy"},
+                                 {"kernels", kernelJson(kernels, level)},
+                                 {"images", imageJson(images, scenes)}};
 }
 
 void cullingPart(const Part& part)
@@ -220,28 +200,16 @@ void cullingPart(const Part& part)
                                    .rounds = reportRounds,
                                    .brutePatience = 2500,
                                    .bruteLimit = 6};
-    Measured& out = part.out;
+    std::vector<CullingPoint> points;
     {
         Progress progress(cullingSteps(settings), !part.quiet);
-        out.facts.culling = measureCulling(part.context, settings, progress);
+        points = measureCulling(part.context, settings, progress);
     }
-    ReportSection section{
-        .id = "culling",
-        .title = "Culling: time against the number of lights",
-        .intro =
-            "The same frame is lit in five ways, in turn: by Candelabra, with lists per tile "
-            "of 16x16 pixels, with lists per froxel, by brute force, and with free culling "
-            "(floor). A way of culling whose curve stays flat copes with many lights. The floor "
-            "is the time of evaluating the lights alone, which no culling can save.",
-        .html = {},
-        .tables = cullingTables(out.facts.culling),
-        .command = "candelabra report --parts culling"};
-    for (const CullingPlot& plot : cullingPlots(out.facts.culling, part.context.info()))
-        section.html += plotBox(plot.svg, "time of lighting against the number of lights");
-    for (const std::string& failure : cullingFailures(out.facts.culling))
-        section.html += "<p>" + escaped(failure) + "</p>\n";
-    out.sections.push_back(std::move(section));
-    out.document["culling"] = cullingJson(settings, out.facts.culling);
+    for (const CullingPlot& plot : cullingPlots(points, part.context.info()))
+        addChart(part, "culling", plot.svg);
+    part.document["culling"] = cullingJson(settings, points);
+    part.document["culling"]["command"] = "candelabra report --parts culling";
+    part.document["culling"]["failures"] = cullingFailures(points);
 }
 
 void stabilityPart(const Part& part)
@@ -254,26 +222,12 @@ void stabilityPart(const Part& part)
         .sweeps = 10,
         .lightTypes = {CND_LIGHT_POINT, CND_LIGHT_SPHERE, CND_LIGHT_SPOT, CND_LIGHT_DIRECTIONAL,
                        CND_LIGHT_TUBE, CND_LIGHT_RECTANGLE, CND_LIGHT_DISC}};
-    Measured& out = part.out;
-    {
-        Progress progress(stabilitySteps(settings), !part.quiet);
-        out.stability = measureStability(part.context, settings, progress);
-    }
-    out.sections.push_back(
-        {.id = "stability",
-         .title = "Stability: inputs that are hard for formulas",
-         .intro = "The engine's light formulas were fed with random inputs and with inputs that "
-                  "are hard for floating-point numbers: contact, grazing views, extreme sizes. "
-                  "Counted are responses that cannot be; then the formulas are compared with "
-                  "quadrature, and jumps are looked for while an input changes continuously. "
-                  "Polygons and distant spheres are left out here: they have the code of "
-                  "rectangles and of spheres.",
-         .html = {},
-         .tables = stabilityTables(out.stability),
-         .command = "candelabra bench stability --configs 1000000 --quadrature 2500 --sweeps 10 "
-                    "--light-types point,sphere,spot,directional,tube,rectangle,disc",
-         .details = stabilityDetails(out.stability)});
-    out.document["stability"] = stabilityJson(settings, out.stability);
+    Progress progress(stabilitySteps(settings), !part.quiet);
+    part.document["stability"] =
+        stabilityJson(settings, measureStability(part.context, settings, progress));
+    part.document["stability"]["command"] =
+        "candelabra bench stability --configs 1000000 --quadrature 2500 --sweeps 10 --light-types "
+        "point,sphere,spot,directional,tube,rectangle,disc";
 }
 
 struct PartChoice {
@@ -286,132 +240,62 @@ constexpr PartChoice partChoices[] = {{"profile", "the passes of a frame", profi
                                       {"culling", "time against the number of lights", cullingPart},
                                       {"stability", "hard inputs", stabilityPart}};
 
-double processorSeconds()
-{
-    rusage use{};
-    getrusage(RUSAGE_SELF, &use);
-    const auto seconds = [](const timeval& t) {
-        return double(t.tv_sec) + 1e-6 * double(t.tv_usec);
-    };
-    return seconds(use.ru_utime) + seconds(use.ru_stime);
-}
-
 // Measures one part, the `index`th of `count`, and says on stderr how far the report is. Returns
 // whether the validation layer found a fault.
 bool measurePart(const DeviceArguments& device, const PartChoice& choice, size_t index,
-                 size_t count, const ReportPlan& plan, bool quiet, Measured& out)
+                 size_t count, const ReportPlan& plan, bool quiet, Json& document)
 {
     spdlog::info("part {} of {}, {}: {}", index + 1, count, choice.name, choice.what);
     const auto start = std::chrono::steady_clock::now();
-    const double processor = processorSeconds();
     // Each part has a device of its own, as each command has. On a device that has rasterised,
     // llvmpipe takes timestamps late and all at once unless something else makes it finish: a
     // single kernel took 0 ms.
     const VulkanContext context(device.contextOptions());
-    choice.measure({context, plan, quiet, out});
+    choice.measure({context, plan, quiet, document});
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-    out.times.push_back({choice.name, wall.count(), processorSeconds() - processor});
+    document[choice.name]["seconds"] = wall.count();
     spdlog::info("part {} of {}, {}: done after {:.0f} s", index + 1, count, choice.name,
                  wall.count());
     return printValidationMessages(context) > 0;
 }
 
-Table timeTable(const std::vector<PartTime>& times)
+// Returns the script that makes the page: it is installed beside the program, and lies at the same
+// place beside a program that is not installed.
+std::filesystem::path pageScript()
 {
-    Table out({{"part", "", "The part of the report."},
-               {"time", "s", "The time by the clock, which grows if other programs run."},
-               {"processor time", "s",
-                "The time of all processor cores together that the program used."}},
-              "How long the parts took");
-    for (const PartTime& t : times)
-        out.add({t.part, fmt::format("{:.0f}", t.wallSeconds),
-                 fmt::format("{:.0f}", t.processorSeconds)});
-    return out;
+    std::error_code error;
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+    return program.parent_path().parent_path() / "share/candelabra/report/report.py";
 }
 
-// Compares with the committed results, if there are any, and marks what contradicts them.
-void addComparison(const std::string& directory, const DeviceInfo& device, const Measured& measured,
-                   ReportPage& page)
+// Runs the script and waits for it. Its messages go to stderr.
+void makePage(const ReportPlan& plan, const std::string& committed)
 {
-    const std::optional<CommittedResults> committed = readCommitted(directory, device);
-    if (!committed || committed->figures.empty()) {
-        page.notes.push_back(fmt::format(
-            "The results of this run are not compared with earlier ones: the folder {} {}.",
-            directory,
-            committed ? "has none of this device and driver"
-                      : "is not there. Results of the project's own machine are in that folder of "
-                        "its source code, and --committed names another folder"));
-        return;
-    }
-    std::vector<ReportedFigure> figures = figuresOf(measured.facts.culling);
-    const std::vector<ReportedFigure> kernels = figuresOf(measured.facts.kernels);
-    figures.insert(figures.end(), kernels.begin(), kernels.end());
-    Comparison comparison = compareWithCommitted(figures, *committed);
-    page.notes.push_back(fmt::format(
-        "{} of this run can be compared with the committed results of this device and driver ({}); "
-        "of these, {} contradict them.",
-        counted(comparison.compared, "figure"), directory,
-        comparison.contradictions.empty() ? "none" : grouped(comparison.contradictions.size())));
-    if (!comparison.omission.empty())
-        page.notes.push_back(comparison.omission);
-    page.markContradictions(comparison.contradictions);
-    if (!comparison.compared)
-        return;
-    page.sections.push_back(
-        {.id = "committed",
-         .title = "Compared with the committed results",
-         .intro = "The project keeps the results of longer runs with its sources. Ratios and "
-                  "errors of this run are compared with theirs; times in milliseconds are not, "
-                  "because they depend on the machine and on what else it does.",
-         .html = {},
-         .tables = {comparison.table},
-         .command = {}});
-}
-
-ReportPage pageOf(const Measured& measured, const DeviceInfo& device, const Json& from,
-                  const std::string& committed, const std::string& commandLine)
-{
-    RunFacts facts{.device = device,
-                   .version = from.at("candelabra"),
-                   .commit = from.at("commit"),
-                   .parts = measured.times.size()};
-    for (const PartTime& t : measured.times) {
-        facts.wallSeconds += t.wallSeconds;
-        facts.processorSeconds += t.processorSeconds;
-    }
-    ReportPage page{
-        .title = "Candelabra: how fast and how accurate",
-        .about = "Candelabra is a library that lights scenes with many lights that have a size: "
-                 "balls, tubes, rectangles, discs. It finds the few lights that matter to each "
-                 "pixel (culling) and computes their light with a formula (conic) in place of "
-                 "random samples. This page tells what a short measurement of it found.",
-        .sentences = {runSentence(facts), speedSentence(measured.facts.culling),
-                      accuracySentence(measured.facts.kernels, measured.facts.scenes),
-                      weaknessSentence(measured.facts), stabilitySentence(measured.stability)},
-        .notes = {},
-        .sections = {}};
-    if (!measured.pictures.empty())
-        page.sections.push_back(
-            {.id = "pictures",
-             .title = "Pictures: the truth, Candelabra and what is common",
-             .intro = "Drag the slider, or move it with the arrow keys. Left of it is the truth at "
-                      "first, right of it the same picture by the approximation that is common in "
-                      "games (karis). Choose conic on the right to see Candelabra, which is meant "
-                      "to look like the truth. Both sides can also show the other methods, and "
-                      "maps of their differences to the truth. The pictures are small, because "
-                      "each pixel of the truth takes long.",
-             .html = measured.pictures,
-             .tables = {},
-             .command = {}});
-    page.sections.insert(page.sections.end(), measured.sections.begin(), measured.sections.end());
-    addComparison(committed, device, measured, page);
-    page.sections.push_back({.id = "provenance",
-                             .title = "What was measured on what",
-                             .intro = {},
-                             .html = {},
-                             .tables = {provenanceTable(from), timeTable(measured.times)},
-                             .command = commandLine});
-    return page;
+    const std::string script = pageScript().string(), folder = plan.directory.string(),
+                      json = (plan.directory / "report.json").string();
+    std::vector<std::string> words{"python3", script, folder};
+    if (!committed.empty())
+        words.push_back(committed);
+    std::vector<char*> arguments;
+    for (std::string& word : words)
+        arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    pid_t child = 0;
+    if (!std::filesystem::exists(script))
+        throw RunError(fmt::format("{}: is missing, so there is no page; the figures are in {}",
+                                   script, json));
+    if (const int error =
+            posix_spawnp(&child, "python3", nullptr, nullptr, arguments.data(), environ);
+        error != 0)
+        throw RunError(fmt::format("python3: {}, so there is no page; install it (Debian: apt-get "
+                                   "install python3), then run \"python3 {} {}\"; the figures are "
+                                   "in {}",
+                                   std::strerror(error), script, folder, json));
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR)
+        continue;
+    if (status != 0)
+        throw RunError(fmt::format("python3 {} made no page; the figures are in {}", script, json));
 }
 
 std::vector<PartChoice> chosenParts(const std::string& parts)
@@ -435,24 +319,24 @@ int report(const ProgramContext& program, const ReportArguments& a)
 {
     const ReportPlan plan{.lights = unsignedOption("--lights", a.lights, 1, maxLights),
                           .frames = unsignedOption("--frames", a.frames, 1, 100'000),
-                          .size = sizeOption("--size", a.size)};
+                          .size = sizeOption("--size", a.size),
+                          .directory = a.directory};
     const std::vector<PartChoice> wanted = chosenParts(a.parts);
     if (!a.committed.empty() && !std::filesystem::is_directory(a.committed))
         throw UsageError(fmt::format("--committed \"{}\": there is no such folder", a.committed));
     const std::string html = benchOutput(a.directory, "--out", "", "index.html"),
                       json = benchOutput(a.directory, "--out", "", "report.json");
     const auto device = std::make_unique<VulkanContext>(a.device.contextOptions())->info();
-    spdlog::info("report on {}", device.name);
-    const Json from = provenance(device, program.commandLine);
+    spdlog::info("report on {}; all parts take 2 to 5 minutes", device.name);
     bool faults = false;
-    Measured measured;
-    measured.document = {{"schema", "candelabra report 1"}, {"provenance", from}};
+    Json document{{"schema", "candelabra report 2"},
+                  {"provenance", provenance(device, program.commandLine)},
+                  {"pictures", Json::array()},
+                  {"charts", Json::array()}};
     for (size_t i = 0; i < wanted.size(); ++i)
-        faults |= measurePart(a.device, wanted[i], i, wanted.size(), plan, program.quiet, measured);
-    writeText(html, htmlOf(pageOf(measured, device, from,
-                                  a.committed.empty() ? committedDirectory : a.committed,
-                                  program.commandLine)));
-    writeJson(json, measured.document);
+        faults |= measurePart(a.device, wanted[i], i, wanted.size(), plan, program.quiet, document);
+    writeJson(json, document);
+    makePage(plan, a.committed);
     writeText("-", fmt::format("See {}; its figures are in {}\n", html, json));
     return faults ? exitFailed : exitOk;
 }
@@ -471,12 +355,12 @@ void addReportCommand(CLI::App& app, Run& run)
     addOption(*command, "--size", a->size, "WxH", "image size of that frame");
     addOption(*command, "--frames", a->frames, "N", "number of times to draw that frame");
     addOption(*command, "--committed", a->committed, "DIR",
-              "folder with CSV files from tools/update_results, of the same device, to compare "
-              "with; default: tools/bench/results, if it exists");
+              "folder with CSV files from tools/update_results to compare with; default: those "
+              "that are installed with the program");
     a->device.addTo(*command);
     command->footer(
-        "The page begins with five sentences that give the result. Under every part is the\n"
-        "command that repeats it.\n\n"
+        "The page begins with questions and their answers. Under every part is the command that\n"
+        "repeats it. All parts take 2 to 5 minutes. python3 makes the page.\n\n"
         "Examples:\n"
         "  candelabra report\n"
         "  candelabra report --parts profile,culling --lights 16000 --out out/culling");

@@ -56,8 +56,7 @@ std::string lowerExtension(const std::string& path)
     return extension;
 }
 
-std::vector<uint8_t> encodePng(const std::string& path, uint32_t width, uint32_t height,
-                               std::span<const uint8_t> rgb)
+void savePng(const std::string& path, uint32_t width, uint32_t height, std::span<const uint8_t> rgb)
 {
     if (width < 1 || height < 1 || width > maxImageSize || height > maxImageSize ||
         rgb.size() != size_t{width} * height * 3)
@@ -69,12 +68,7 @@ std::vector<uint8_t> encodePng(const std::string& path, uint32_t width, uint32_t
                                 static_cast<int>(height), 3, rgb.data(),
                                 static_cast<int>(width) * 3))
         failWrite(path, "the PNG encoder failed");
-    return bytes;
-}
-
-void savePng(const std::string& path, uint32_t width, uint32_t height, std::span<const uint8_t> rgb)
-{
-    writeFileAtomically(path, encodePng(path, width, height, rgb));
+    writeFileAtomically(path, bytes);
 }
 
 void saveHdr(const std::string& path, const Image& image)

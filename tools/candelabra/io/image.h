@@ -34,10 +34,6 @@ struct DisplayImage {
     std::vector<glm::vec3> pixels;  // sRGB-encoded values in [0, 1], rows from the top
 };
 
-// The bytes of the PNG file that savePng would write. `name` is its name in error messages.
-std::vector<uint8_t> encodePng(const std::string& name, uint32_t width, uint32_t height,
-                               std::span<const uint8_t> rgb);
-
 // Writes 8-bit RGB. `rgb` holds width * height * 3 display-referred (sRGB-encoded) values, rows
 // from the top.
 void savePng(const std::string& path, uint32_t width, uint32_t height,

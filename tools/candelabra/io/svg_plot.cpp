@@ -7,12 +7,29 @@
 
 #include <fmt/format.h>
 
-#include "io/markup.h"
-
 namespace candelabra::app
 {
 namespace
 {
+
+// Replaces & < > and " by entities.
+std::string escaped(const std::string& text)
+{
+    std::string out;
+    for (const char c : text) {
+        if (c == '&')
+            out += "&amp;";
+        else if (c == '<')
+            out += "&lt;";
+        else if (c == '>')
+            out += "&gt;";
+        else if (c == '"')
+            out += "&quot;";
+        else
+            out += c;
+    }
+    return out;
+}
 
 // Size of the drawing and of its margins in pixels. The right margin holds the labels of the lines.
 constexpr double width = 960, height = 600, left = 84, right = 220, top = 76, bottom = 66;

@@ -8,20 +8,16 @@
 #include <fmt/format.h>
 
 #include "io/error.h"
-#include "io/markup.h"
 #include "io/statistics.h"
 
 namespace candelabra::app
 {
 
-Column::Column(const char* title, std::string inUnit, std::string meaning)
-    : name(title), unit(std::move(inUnit)), about(std::move(meaning))
-{
-}
+Column::Column(const char* title, std::string inUnit) : name(title), unit(std::move(inUnit)) {}
 
-Column Column::words(const char* name, std::string about)
+Column Column::words(const char* name)
 {
-    Column out(name, "", std::move(about));
+    Column out(name);
     out.isWords = true;
     return out;
 }
@@ -42,14 +38,6 @@ std::string pairedLegend()
 {
     return "paired: the median of the ratios of single rounds, which differs from the quotient of "
            "the medians.";
-}
-
-std::string contradictionLegend()
-{
-    return fmt::format(
-        "{} marks a row whose figure is far from that of the results that are committed with the "
-        "sources for this device and driver.",
-        contradictionMark);
 }
 
 Table::Table(std::vector<Column> columns, std::string title)
@@ -76,25 +64,11 @@ void Table::note(std::string text)
     notes_.push_back(std::move(text));
 }
 
-void Table::setTitle(std::string title)
-{
-    title_ = std::move(title);
-}
-
-void Table::markContradictions(std::span<const std::string> keys)
-{
-    for (Row& row : rows_)
-        row.contradicts = !row.facts.key.empty() &&
-                          std::find(keys.begin(), keys.end(), row.facts.key) != keys.end();
-}
-
 std::string Table::firstCell(const Row& row) const
 {
     std::string out = row.cells[0];
     if (row.facts.noisy)
         out.append(" ").append(noisyMark);
-    if (row.contradicts)
-        out.append(" ").append(contradictionMark);
     return out;
 }
 
@@ -103,8 +77,6 @@ std::vector<std::string> Table::allNotes() const
     std::vector<std::string> out = notes_;
     if (std::any_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.facts.noisy; }))
         out.push_back(noisyLegend());
-    if (std::any_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.contradicts; }))
-        out.push_back(contradictionLegend());
     return out;
 }
 
@@ -137,49 +109,6 @@ std::string Table::text() const
     }
     for (const std::string& note : allNotes())
         out += note + "\n";
-    return out;
-}
-
-std::string Table::htmlRow(const Row& row, bool ruled) const
-{
-    std::string out = ruled ? "<tr class=\"ruled\">" : "<tr>";
-    for (size_t i = 0; i < columns_.size(); ++i) {
-        const std::string cell = escaped(i ? row.cells[i] : firstCell(row));
-        if (i == 0)
-            out += "<th scope=\"row\">" + cell + "</th>";
-        else
-            out += (columns_[i].isWords ? "<td class=\"words\">" : "<td>") + cell + "</td>";
-    }
-    return out + "</tr>\n";
-}
-
-std::string Table::html() const
-{
-    std::string head, meanings, body;
-    for (const Column& column : columns_) {
-        head += fmt::format(
-            "<th scope=\"col\"{}>{}{}</th>", column.isWords ? " class=\"words\"" : "",
-            escaped(column.name),
-            column.unit.empty() ? "" : "<br/><small>" + escaped(column.unit) + "</small>");
-        if (!column.about.empty())
-            meanings += fmt::format("<dt>{}</dt><dd>{}</dd>\n", escaped(column.head()),
-                                    escaped(column.about));
-    }
-    bool ruled = false;
-    for (const Row& row : rows_) {
-        if (!row.cells.empty())
-            body += htmlRow(row, ruled);
-        ruled = row.cells.empty();
-    }
-    std::string out = fmt::format(
-        "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"{0}\"><table>"
-        "<caption>{0}</caption>\n<thead><tr>{1}</tr></thead>\n<tbody>\n{2}</tbody></table></div>\n",
-        escaped(title_), head, body);
-    for (const std::string& note : allNotes())
-        out += "<p class=\"note\">" + escaped(note) + "</p>\n";
-    if (!meanings.empty())
-        out += "<details><summary>What the columns mean</summary><dl>\n" + meanings +
-               "</dl></details>\n";
     return out;
 }
 

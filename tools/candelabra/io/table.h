@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Table: a table of results as an object, which is rendered as aligned text for the terminal or as
-// HTML for a page. Debian has no C++ library for this; fmt aligns single cells, when the widths of
-// the columns are known.
+// Table: a table of results, which becomes aligned text for the terminal. Debian has no C++ library
+// for this; fmt aligns single cells, when the widths of the columns are known.
 #pragma once
 
 #include <optional>
@@ -13,23 +12,21 @@ namespace candelabra::app
 {
 
 struct Column {
-    // Implicit, so that a table whose columns need no explanation is made from their names alone.
-    Column(const char* name, std::string unit = "", std::string about = "");
+    // Implicit, so that columns without a unit are made from their names alone.
+    Column(const char* name, std::string unit = "");
     // A column of words, which is aligned to the left, as the first column always is.
-    static Column words(const char* name, std::string about);
+    static Column words(const char* name);
 
-    // The name and the unit, as printed above the column in text.
+    // The name and the unit, as printed above the column.
     std::string head() const;
 
     std::string name, unit;
-    std::string about; // a sentence that explains the column on pages; may be empty
     bool isWords = false;
 };
 
 // Facts about a row that its cells do not hold. Tables mark rows by them.
 struct RowFacts {
     bool noisy = false; // its repeated measurements differ much (isNoisy)
-    std::string key;    // names the row for Table::markContradictions
 };
 
 class Table
@@ -42,29 +39,19 @@ public:
     void rule();
     // Adds a line of text below the table.
     void note(std::string text);
-    // Marks the rows that have one of these keys as contradicting earlier results.
-    void markContradictions(std::span<const std::string> keys);
-
-    void setTitle(std::string title);
-    const std::string& title() const { return title_; }
-    const std::vector<Column>& columns() const { return columns_; }
 
     // The title, the table and the notes as lines that each end in a newline. Numbers are aligned
     // to the right.
     std::string text() const;
-    // A table in a box that scrolls sideways, with its notes and the explanations of its columns.
-    std::string html() const;
 
 private:
     struct Row {
         std::vector<std::string> cells; // none: a rule
         RowFacts facts;
-        bool contradicts = false;
     };
-    std::string firstCell(const Row& row) const; // with its marks
-    // The notes, followed by an explanation of every mark that the table has.
+    std::string firstCell(const Row& row) const; // with its mark
+    // The notes, followed by an explanation of the mark if the table has it.
     std::vector<std::string> allNotes() const;
-    std::string htmlRow(const Row& row, bool ruled) const;
 
     std::string title_;
     std::vector<Column> columns_;
@@ -72,12 +59,9 @@ private:
     std::vector<std::string> notes_;
 };
 
-// The marks of rows, which follow the name of the row.
+// The mark of noisy rows, which follows the name of the row, and the sentence that explains it.
 inline constexpr const char* noisyMark = "~";
-inline constexpr const char* contradictionMark = "!";
-// The sentences that explain them.
 std::string noisyLegend();
-std::string contradictionLegend();
 // Explains columns whose unit is "paired".
 std::string pairedLegend();
 

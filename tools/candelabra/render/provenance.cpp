@@ -52,12 +52,4 @@ Json provenance(const std::string& commandLine)
         commandLine);
 }
 
-Table provenanceTable(const Json& provenance)
-{
-    Table out({"what", Column::words("value", "")}, "Program, device and time");
-    for (const auto& [name, value] : provenance.items())
-        out.add({name, value.is_string() ? value.get<std::string>() : value.dump()});
-    return out;
-}
-
 } // namespace candelabra::app

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "io/report.h"
-#include "io/table.h"
 #include "render/vulkan_instance.h"
 
 namespace candelabra::app
@@ -17,8 +16,5 @@ Json provenance(const DeviceInfo& device, const std::string& commandLine);
 // The same for results that no device was used for: with the processor's architecture and number of
 // hardware threads in place of device and driver.
 Json provenance(const std::string& commandLine);
-
-// A provenance as a table for a page.
-Table provenanceTable(const Json& provenance);
 
 } // namespace candelabra::app

@@ -135,10 +135,10 @@ double scanL1(const SampleSet& set, std::span<const gpu::BenchResponse> response
     return mean;
 }
 
-std::vector<double> groupMeans(const SampleSet& set, std::span<const gpu::BenchResponse> responses)
+double groupStandardError(const SampleSet& set, std::span<const gpu::BenchResponse> responses)
 {
     const std::vector<double> peak = peaks(set, mirrorOf);
-    std::vector<double> sums(set.groups), counts(set.groups), out;
+    std::vector<double> sums(set.groups), counts(set.groups);
     for (size_t i = 0; i < set.samples.size(); ++i) {
         const LightSample& s = set.samples[i];
         if (s.horizon == Horizon::Below || !isValid(responses[i]) || !(peak[s.group] > 0))
@@ -146,10 +146,15 @@ std::vector<double> groupMeans(const SampleSet& set, std::span<const gpu::BenchR
         sums[s.group] += std::abs(double(responses[i].a) - s.truth.a) / peak[s.group];
         counts[s.group] += 1;
     }
+    double n = 0, sum = 0, squares = 0;
     for (uint32_t g = 0; g < set.groups; ++g)
-        if (counts[g] > 0)
-            out.push_back(sums[g] / counts[g]);
-    return out;
+        if (counts[g] > 0) {
+            const double mean = sums[g] / counts[g];
+            n += 1;
+            sum += mean;
+            squares += mean * mean;
+        }
+    return n > 1 ? std::sqrt(std::max(squares - sum * sum / n, 0.0) / (n * (n - 1))) : 0;
 }
 
 Json toJson(const ErrorStatistics& s)
@@ -180,7 +185,7 @@ KernelError kernelError(const SampleSet& set, std::span<const gpu::BenchResponse
 {
     const std::vector<Values> values = valuesOf(responses), truths = truthsOf(set);
     KernelError out{.mirror = horizonStatistics(set, values, truths, mirrorOf),
-                    .groupMeans = groupMeans(set, responses),
+                    .groupStandardError = groupStandardError(set, responses),
                     .dielectric = horizonStatistics(set, values, truths, dielectricOf),
                     .diffuse = horizonStatistics(set, values, truths, diffuseOf),
                     .scanL1 = scanL1(set, responses),
@@ -207,9 +212,13 @@ std::string meanP99Max(const ErrorStatistics& s)
 
 Json toJson(const KernelError& e)
 {
-    Json out{{"fresnel1", toJson(e.mirror)},         {"F0_0.04", toJson(e.dielectric)},
-             {"formFactor", toJson(e.diffuse)},      {"scanRelativeL1Percent", 100 * e.scanL1},
-             {"leakFromBelowPercent", 100 * e.leak}, {"invalid", e.invalid}};
+    Json out{{"fresnel1", toJson(e.mirror)},
+             {"F0_0.04", toJson(e.dielectric)},
+             {"formFactor", toJson(e.diffuse)},
+             {"scanRelativeL1Percent", 100 * e.scanL1},
+             {"leakFromBelowPercent", 100 * e.leak},
+             {"invalid", e.invalid},
+             {"groupStandardErrorPercent", 100 * e.groupStandardError}};
     if (e.parts) {
         out["formulaAgainstTruth"] = toJson(e.parts->formula);
         out["float32AgainstFormula"] = toJson(e.parts->float32);

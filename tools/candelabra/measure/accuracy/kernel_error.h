@@ -41,9 +41,9 @@ struct ErrorParts {
 
 struct KernelError {
     HorizonStatistics mirror; // F = 1
-    // The mean of `mirror.all` of each group that has such samples. Samples of one group are
-    // similar, so an interval of the error is one over groups.
-    std::vector<double> groupMeans;
+    // The standard error of the mean of `mirror.all`, from the scatter between groups, because
+    // samples of one group are similar. 0: there are fewer than two groups.
+    double groupStandardError = 0;
     HorizonStatistics dielectric; // F0 = 0.04
     HorizonStatistics diffuse;    // errors of the form factor
     // The relative L1 error over the scan through the plane of incidence, averaged over the groups.

@@ -46,12 +46,6 @@ struct KernelLevel {
     size_t samples = 0;
 };
 
-// Name the row of a light type and a method, to compare its time or its error with earlier results.
-std::string kernelTimeKey(const std::string& light, const std::string& method);
-std::string kernelErrorKey(const std::string& light, const std::string& method);
-// What a light well above the horizon costs; null without timestamps.
-const KernelPoint::Case* mainCase(const KernelPoint& point);
-
 double kernelLevelSteps(const KernelLevelSettings& settings);
 KernelLevel measureKernelLevel(const VulkanContext& context, const KernelLevelSettings& settings,
                                Progress& progress);

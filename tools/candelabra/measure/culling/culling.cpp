@@ -382,23 +382,17 @@ void addRow(Table& table, const CullingPoint& p, const Contender& c)
 
 Table timeTable(const std::vector<CullingPoint>& sweep)
 {
-    Table table(
-        {{"lights, way of culling", "",
-          "How many lights the scene has, and how each pixel finds its own."},
-         {"GPU time", "ms",
-          "The time of all lighting passes of a frame on the device, the median of the rounds."},
-         {"culling", "ms", "The part of it that finds lights."},
-         {"shading", "ms", "The part of it that evaluates lights."},
-         {"list entries", "", "The entries of all light lists."},
-         {"lists", "MB", "The size of all light lists."},
-         {"listed", "million pairs",
-          "How many lights the lists offer to pixels, summed over the pixels."},
-         {"evaluated", "million pairs", "How many of these lights are evaluated in full."},
-         {"contributing", "million pairs", "How many of these lights add light to the pixel."},
-         {"difference", "of largest",
-          "The largest difference to Candelabra's image, as a share of its largest value. The "
-          "order of sums may change the last digits."}},
-        titleOf(sweep.front()) + "; medians");
+    Table table({"lights, way of culling",
+                 {"GPU time", "ms"},
+                 {"culling", "ms"},
+                 {"shading", "ms"},
+                 "list entries",
+                 {"lists", "MB"},
+                 {"listed", "million pairs"},
+                 {"evaluated", "million pairs"},
+                 {"contributing", "million pairs"},
+                 {"difference", "of largest"}},
+                titleOf(sweep.front()) + "; medians");
     for (const CullingPoint& p : sweep) {
         if (&p != &sweep.front())
             table.rule();
@@ -441,29 +435,16 @@ std::string inverseInterval(const PairedRatio& r)
 
 Table ratioTable(const std::vector<CullingPoint>& points)
 {
-    Table table(
-        {{"configuration", "",
-          "The scene, the size of the image, how many lights reach a pixel on average, and the "
-          "number of lights."},
-         {"time / best other", "",
-          "Candelabra's median time divided by that of the fastest other way that was drawn and "
-          "gives the same image. Below 1, Candelabra is faster."},
-         {"95% interval", "",
-          "An interval of the same ratio: it holds the true median of the ratios of the rounds "
-          "with 95% confidence."},
-         Column::words("which other", "The fastest other way."),
-         {"time / floor", "",
-          "The median time divided by that of shading the same lights when finding them costs "
-          "nothing."},
-         {"culling / shading", "%",
-          "The time of finding lights as a share of the time of evaluating them."},
-         {"contributing / listed", "",
-          "Of the lights that lists offer to a pixel, the share that adds light to it."},
-         {"of that of tiles", "",
-          "The same share divided by that of lists per tile of 16x16 pixels."},
-         {"contributing / evaluated", "",
-          "Of the lights that are evaluated in full, the share that adds light."}},
-        "Candelabra against the others: quotients of the medians above");
+    Table table({"configuration",
+                 "time / best other",
+                 "95% interval",
+                 Column::words("which other"),
+                 "time / floor",
+                 {"culling / shading", "%"},
+                 "contributing / listed",
+                 "of that of tiles",
+                 "contributing / evaluated"},
+                "Candelabra against the others: quotients of the medians above");
     for (const CullingPoint& p : points) {
         const Ratios r = ratiosOf(p);
         table.add({p.title(), fmt::format("{:.2f}", r.toBest), inverseInterval(p.toEngine(r.best)),
@@ -471,8 +452,7 @@ Table ratioTable(const std::vector<CullingPoint>& points)
                    fmt::format("{:.1f}", 100 * r.cullingShare), fmt::format("{:.2f}", r.perListed),
                    fmt::format("{:.1f}", r.listedGain), fmt::format("{:.2f}", r.perEvaluated)},
                   {.noisy = isNoisy(p.of(engineName).times.totals()) ||
-                            isNoisy(p.of(r.best).times.totals()),
-                   .key = cullingKey(p.scene, p.lights, p.overlaps)});
+                            isNoisy(p.of(r.best).times.totals())});
     }
     return table;
 }
@@ -517,11 +497,6 @@ std::string CullingPoint::title() const
     return fmt::format("{}, {}", titleOf(*this), counted(lights, "light"));
 }
 
-std::string cullingKey(const std::string& scene, uint64_t lights, uint64_t overlaps)
-{
-    return fmt::format("culling: {}, {} overlaps, {}", scene, overlaps, counted(lights, "light"));
-}
-
 std::vector<Table> cullingTables(const std::vector<CullingPoint>& points)
 {
     std::vector<Table> out;
@@ -539,22 +514,27 @@ Json cullingJson(const CullingSettings& settings, const std::vector<CullingPoint
         for (const Contender& c : p.contenders)
             contenders.push_back(contenderJson(c));
         const Ratios r = ratiosOf(p);
-        list.push_back({{"scene", p.scene},
-                        {"widthPixels", p.size.width},
-                        {"heightPixels", p.size.height},
-                        {"lights", p.lights},
-                        {"overlaps", p.overlaps},
-                        {"tiles", p.tiles},
-                        {"splitTiles", p.splitTiles},
-                        {"unlistedClusters", p.unlistedClusters},
-                        {"ratioToBestBaseline", r.toBest},
-                        {"bestBaseline", r.best},
-                        {"ratioToFloor", r.toFloor},
-                        {"cullingOverShading", r.cullingShare},
-                        {"contributingOverListed", r.perListed},
-                        {"contributingOverEvaluated", r.perEvaluated},
-                        {"contributingOverListedToTiles", r.listedGain},
-                        {"contenders", contenders}});
+        const PairedRatio interval = p.toEngine(r.best);
+        const Json unknown;
+        list.push_back(
+            {{"scene", p.scene},
+             {"widthPixels", p.size.width},
+             {"heightPixels", p.size.height},
+             {"lights", p.lights},
+             {"overlaps", p.overlaps},
+             {"tiles", p.tiles},
+             {"splitTiles", p.splitTiles},
+             {"unlistedClusters", p.unlistedClusters},
+             {"ratioToBestBaseline", r.toBest},
+             {"ratioToBestBaselineLow", interval.isKnown() ? Json(1 / interval.high) : unknown},
+             {"ratioToBestBaselineHigh", interval.isKnown() ? Json(1 / interval.low) : unknown},
+             {"bestBaseline", r.best},
+             {"ratioToFloor", r.toFloor},
+             {"cullingOverShading", r.cullingShare},
+             {"contributingOverListed", r.perListed},
+             {"contributingOverEvaluated", r.perEvaluated},
+             {"contributingOverListedToTiles", r.listedGain},
+             {"contenders", contenders}});
     }
     return {{"rounds", settings.rounds},
             {"seed", settings.seed},

@@ -85,8 +85,6 @@ double cullingSteps(const CullingSettings& settings);
 std::vector<CullingPoint> measureCulling(const VulkanContext& context,
                                          const CullingSettings& settings, Progress& progress);
 
-// Names a configuration, whatever the size of its image, to compare it with earlier results.
-std::string cullingKey(const std::string& scene, uint64_t lights, uint64_t overlaps);
 std::vector<Table> cullingTables(const std::vector<CullingPoint>& points);
 Json cullingJson(const CullingSettings& settings, const std::vector<CullingPoint>& points);
 struct CullingPlot {

@@ -193,15 +193,14 @@ LightCosts lightCosts(const VulkanContext& context, Renderer& renderer, const Sc
 
 Table lightCostTable(const LightCosts& costs, const Scene& scene, size_t count, double shadingMs)
 {
-    Table table({{"light", "", "The number of the light in the scene."},
-                 Column::words("type", "The type of the light."),
-                 {"reach", "m",
-                  "The distance beyond which the light adds nothing (its radius of influence)."},
-                 {"pixels", "", "How many pixels it may reach."},
-                 {"of all", "", "These as a share of the pixels that show a surface."},
-                 {"pairs", "", "The evaluations of lights at pixels that are the light's share."},
-                 {"share", "", "These as a share of all evaluations."},
-                 {"time", "ms", "The time of these evaluations, if each takes the same time."}});
+    Table table({"light",
+                 Column::words("type"),
+                 {"reach", "m"},
+                 "pixels",
+                 "of all",
+                 "pairs",
+                 "share",
+                 {"time", "ms"}});
     const auto add = [&](const std::string& name, const std::string& type, const std::string& reach,
                          uint64_t pixels, double pairs, double ms) {
         table.add(

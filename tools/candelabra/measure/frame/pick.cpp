@@ -305,8 +305,7 @@ std::string pickText(const Pick& pick, const Scene& scene)
                        pick.position.z, counted(pick.lights.size(), "light"));
     std::vector<Column> columns{"light", "type", "distance m", "cd/m^2", "share", "truth", "error"};
     if (pick.shadows)
-        columns.insert(columns.end(),
-                       {"V diffuse", "V specular", Column::words("hidden most by", "")});
+        columns.insert(columns.end(), {"V diffuse", "V specular", Column::words("hidden most by")});
     Table table(columns);
     glm::dvec3 truth = pick.unlit;
     const auto add = [&](const std::string& name, const std::string& type,

@@ -282,15 +282,13 @@ const char* verdict(const PairedRatio& ratio)
 
 Table seriesTable(const FrameSeries& series)
 {
-    Table table(
-        {{"GPU pass", "",
-          "A step of the frame on the device; the rows below the line are of the whole frame."},
-         {"min", "ms", "The shortest time of all frames."},
-         {"median", "ms", "Half of the frames took no longer than this."},
-         {"p95", "ms", "95% of the frames took no longer than this."},
-         {"p99", "ms", "99% of the frames took no longer than this."},
-         {"variation", "", "The standard deviation of the frames divided by their mean."},
-         {"share", "", "The share of the median in the median of the sum of all passes."}});
+    Table table({"GPU pass",
+                 {"min", "ms"},
+                 {"median", "ms"},
+                 {"p95", "ms"},
+                 {"p99", "ms"},
+                 "variation",
+                 "share"});
     const double gpu = medianOf(series.gpuMs);
     const auto add = [&](const std::string& name, const std::vector<double>& ms, bool ofGpu) {
         const Spread s = spreadOf(ms);

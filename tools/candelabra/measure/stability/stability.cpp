@@ -221,16 +221,9 @@ std::string nameOf(const Evaluation& e)
 
 Table countTable(const Stability& stability)
 {
-    Table table(
-        {{"inputs", "", "A kind of input, random or chosen because it is hard for formulas."},
-         {"tried", "",
-          "How many inputs of the kind were evaluated, over all light types and methods."},
-         {"NaN", "", "Responses that are no number."},
-         {"infinite", "", "Responses that are infinite."},
-         {"negative", "", "Responses below zero."},
-         {"above the bound", "", "Responses brighter than such a light can be."}},
-        fmt::format("Responses to {} inputs, {} of them invalid", grouped(stability.tried()),
-                    grouped(stability.invalid())));
+    Table table({"inputs", "tried", "NaN", "infinite", "negative", "above the bound"},
+                fmt::format("Responses to {} inputs, {} of them invalid",
+                            grouped(stability.tried()), grouped(stability.invalid())));
     for (uint32_t slice = 0; slice < sweepSliceCount; ++slice) {
         SweepCount sum;
         for (const SweptSlice& s : stability.slices)
@@ -250,15 +243,13 @@ Table countTable(const Stability& stability)
 Table quadratureTable(const Stability& stability)
 {
     Table table(
-        {{"light, method", "", "The type of the light, and the method that evaluates it."},
-         {"samples", "", "How many inputs were compared with quadrature."},
-         {"mean", "%", "The mean error."},
-         {"p99", "%", "The error that 99% of the inputs do not exceed."},
-         {"max", "%", "The largest error."},
-         {"bar", "%", "The largest error that the project allows itself, where it has set one."},
-         {"diffuse max", "",
-          "The largest error of the form factor, relative to the squared ratio of the light's "
-          "radius to its distance."}},
+        {"light, method",
+         "samples",
+         {"mean", "%"},
+         {"p99", "%"},
+         {"max", "%"},
+         {"bar", "%"},
+         "diffuse max"},
         "Formula against quadrature on such inputs, F = 1, relative to the response on the mirror "
         "axis");
     for (const QuadratureCheck& q : stability.quadrature)
@@ -270,13 +261,7 @@ Table quadratureTable(const Stability& stability)
 
 Table continuityTable(const Stability& stability)
 {
-    Table table(
-        {{"light, method", "", "The type of the light, and the method that evaluates it."},
-         Column::words("through", "What changes continuously while the response is watched."),
-         {"largest jump / peak", "",
-          "The largest jump of the response between neighbouring floating-point inputs, relative "
-          "to the peak response."}},
-        "Continuity");
+    Table table({"light, method", Column::words("through"), "largest jump / peak"}, "Continuity");
     for (const ContinuityCheck& c : stability.continuity)
         table.add({nameOf(c.evaluation), c.through, threeDigits(c.jump)});
     return table;
