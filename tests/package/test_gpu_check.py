@@ -63,7 +63,8 @@ require("LEFT OUT for lack of time: profile_hall_200_64x36" in short, "what was 
 
 # The archives become records and tables, but not those of quick runs.
 copy = work / "copy"
-for name in ("README.md", "tools/update_results", "tools/report/figures.py", "tools/bench/RESULTS.md"):
+for name in ("README.md", "engine/LIGHTING_MODEL.md", "tools/update_results", "tools/report/figures.py",
+             "tools/bench/RESULTS.md"):
     (copy / name).parent.mkdir(parents=True, exist_ok=True)
     shutil.copy(source / name, copy / name)
 shutil.copytree(source / "tools/bench/results", copy / "tools/bench/results")

@@ -81,10 +81,10 @@ def install():
         require("glslang" not in run("readelf", "-d", library), f"{name} needs a glslang of the system")
 
     documents = sorted((prefix / "share/doc/candelabra").glob("*.md"))
-    require(len(documents) == 4, f"installed {documents}")
+    require(len(documents) == 5, f"installed {documents}")
     for document in documents:
         text = document.read_text(encoding="utf-8")
-        named = re.findall(r"\b[A-Z]+\.md\b|\bsamples/\w+", text)
+        named = re.findall(r"\b[A-Z_]+\.md\b|\bsamples/\w+", text)
         linked = [link.partition("#")[0] for link in re.findall(r"\]\(([^)]+)\)", text)]
         for name in {*named, *filter(None, linked)}:
             require((document.parent / name).exists(), f"{document} refers to {name}, which is not installed")
