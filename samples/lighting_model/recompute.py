@@ -125,7 +125,7 @@ def main():
     with open(options.scene, encoding="utf-8") as file:
         scene = json.load(file)
     print("Differences between picture and model. Median and largest are relative, and leave out pixels with less\n"
-          "than a tenth of the light of the brightest. The last column has the largest of all, as a share of it.")
+          "than a tenth of the light of the brightest. The last column is the largest of all, as a share of that light.")
     print("material channel lit brightest   median  largest of brightest")
     for (name, channel), values in sorted(compare(scene, read_pfm(options.picture), options).items()):
         top = max(model for model, _ in values)

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Runs every command of README.md as it is written there, in an empty folder, only smaller: options for that
-are appended. A command that this test does not know is a fault. Usage: test_readme.py PROGRAM REPOSITORY"""
+are appended. A command that this test does not know is a fault. Then renders the example of SCENE_JSON.md.
+Usage: test_readme.py PROGRAM REPOSITORY"""
 import os
 import pathlib
 import re
@@ -89,6 +90,10 @@ def main(folder):
         else:
             failures.append(f"{command}: this test does not know how to make it small")
         known += not elsewhere
+    listing = re.search(r"^```json\n(.*?)^```$", (root / "tools/SCENE_JSON.md").read_text(encoding="utf-8"),
+                        re.DOTALL | re.MULTILINE)
+    (empty / "two_balls.json").write_text(listing[1], encoding="utf-8")
+    run(smaller("candelabra render two_balls.json -o two_balls.png"), empty, environment)
     if known < 10:
         failures.append(f"README lists only {known} commands")
 

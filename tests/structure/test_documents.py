@@ -82,6 +82,26 @@ if len(parts) != 3 or f"```cpp\n{textwrap.dedent(parts[1]).rstrip()}\n```" not i
 elif parts[1].count("\n") > MAX_LISTING_LINES:
     fail(sample, f"its listing has {parts[1].count(chr(10))} lines, at most {MAX_LISTING_LINES}")
 
+# SCENE_JSON.md has a row for every key of a scene description and for no other, and a row for every type of light.
+SCENES, PROGRAM = root / "tools/SCENE_JSON.md", root / "tools/candelabra"
+page = SCENES.read_text(encoding="utf-8")
+loader = "".join(p.read_text(encoding="utf-8") for p in sorted((PROGRAM / "json").glob("scene_json*.cpp")))
+lists = re.findall(r"(?:refuseOtherKeys\(|known)\{(.*?)\}|known\.push_back\((.*?)\)", loader, re.DOTALL)
+keys = set(re.findall(r'"(\w+)"', str(lists)))
+kinds = (PROGRAM / "scene/light_types.cpp").read_text(encoding="utf-8")
+named = dict(re.findall(r"std::string> (\w+) = \{([^}]*)\}", kinds))
+for kind in kinds.split('.name = "')[1:]:
+    emission = re.search(r"\.emission = (\w+|\{[^}]*\})", kind)[1]
+    own = set(re.findall(r'\{"(\w+)", ', kind) + re.findall(r'"(\w+)"', named.get(emission, emission)))
+    keys |= own
+    name = kind.split('"')[0]
+    row = re.search(rf'^\| `"{name}"` \|(.*)$', page, re.MULTILINE)
+    if not row or set(re.findall(r"`(\w+)`", row[1])) != own:
+        fail(SCENES, f"does not say that the keys of a light of type {name} are {', '.join(sorted(own))}")
+rows = set(re.findall(r"`(\w+)`", " ".join(re.findall(r"^\| (`\w+`.*?) \|", page, re.MULTILINE))))
+if rows != keys:
+    fail(SCENES, f"its rows and the loader's keys differ by {', '.join(sorted(rows ^ keys))}")
+
 # The figures in the documents are the measured ones.
 check = subprocess.run([sys.executable, root / "tools/update_results", "--check"],
                        capture_output=True, text=True)

@@ -1,16 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads scene descriptions, the small format in which reference images are published: one camera,
-// exact planes and balls, and lights (scene_json_lights.h). Angles are in degrees, lengths in any
-// unit, and radiance is taken as it is. Instead of objects, a description may name a source,
-// another scene from which everything but lights and cameras is taken:
-//
-//   "source": {"scene": "hall", "seed": 1,
-//              "material": {"perceptual_roughness": 0.4, "metalness": 0}}
-//
-// "scene" may also be the path of a glTF file, relative to the folder of the description.
-// "material", if given, is used for the roughness and metalness of all materials.
-//
-// "exposure_compensation" is the EV by which the picture is made brighter, such as -1 at night.
+// exact planes and balls, and lights (scene_json_lights.h). tools/SCENE_JSON.md describes all keys.
 #include <cmath>
 #include <filesystem>
 #include <numbers>

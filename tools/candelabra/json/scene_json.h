@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loads scene descriptions (.json). Their format is described in scene_json.cpp.
+// Loads scene descriptions (.json). tools/SCENE_JSON.md describes their format.
 #pragma once
 
 #include <string>
