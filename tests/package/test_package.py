@@ -81,7 +81,7 @@ def install():
         require("glslang" not in run("readelf", "-d", library), f"{name} needs a glslang of the system")
 
     documents = sorted((prefix / "share/doc/candelabra").glob("*.md"))
-    require(len(documents) == 5, f"installed {documents}")
+    require(len(documents) == 6, f"installed {documents}")
     for document in documents:
         text = document.read_text(encoding="utf-8")
         named = re.findall(r"\b[A-Z_]+\.md\b|\bsamples/\w+", text)

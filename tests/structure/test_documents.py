@@ -207,8 +207,8 @@ def without_prefix(word):
     return rest[0].lower() + rest[1:] if word.startswith("cnd") and rest else rest
 
 
-for guide in (README, DESIGN, *(root / "engine" / name for name in ("CHANGELOG.md", "DEFERRED.md", "INTEGRATION.md", "LIGHTING_MODEL.md",
-                                                          "UPDATE.md"))):
+for guide in (README, DESIGN, *(root / "engine" / name for name in ("CHANGELOG.md", "CONCEPTS.md", "DEFERRED.md", "INTEGRATION.md",
+                                                          "LIGHTING_MODEL.md", "UPDATE.md"))):
     text = guide.read_text()
     fields = re.findall(r"[{,]\s*\.(\w+) =", "".join(re.findall(r"```cpp\n(.*?)```", text, re.DOTALL)))
     for word in sorted(set(re.findall(r"\b(?:Cnd|cnd|CND_)\w+", text) + fields)):
