@@ -190,9 +190,16 @@ INSTANTIATE_TEST_SUITE_P(
             "scene.json: lights[0].radiance: must be an array of 3 numbers, is an array of 2"},
         ErrorCase{"/lights/0/radiance/1", "-3",
                   "scene.json: lights[0].radiance[1]: must be >= 0, is -3"},
-        ErrorCase{"/lights/0/colour", "1", "scene.json: lights[0]: unknown key \"colour\""},
+        ErrorCase{"/lights/0/colour", "1",
+                  "scene.json: lights[0]: unknown key \"colour\"; the known ones are type, layers, "
+                  "unshadowed, unshadowed_by, position, radius, influence_radius, radiance, "
+                  "luminance, luminous_power, intensity"},
         ErrorCase{"/lights", "{}", "scene.json: lights: must be an array, is an object"},
-        ErrorCase{"/light", "[]", "scene.json: unknown key \"light\""},
+        ErrorCase{"/light", "[]",
+                  "scene.json: unknown key \"light\"; the known ones are camera, object, objects, "
+                  "material, source, lights, resolution, background, lights_visible_to_camera, "
+                  "lights_occlude, exposure_compensation, name, about, channels, references, "
+                  "rendered_terms"},
         ErrorCase{"/camera", "", "scene.json: \"camera\" is missing"},
         ErrorCase{"/camera/look_at", "[0, 2, 4]",
                   "scene.json: camera.look_at: must not be the camera's position"},
@@ -205,7 +212,9 @@ INSTANTIATE_TEST_SUITE_P(
                   "scene.json: camera.position[0]: must be a number, is null"},
         ErrorCase{"/object/type", "\"torus\"",
                   "scene.json: object.type: must be \"plane\" or \"sphere\", is \"torus\""},
-        ErrorCase{"/object/radius", "1", "scene.json: object: unknown key \"radius\""},
+        ErrorCase{"/object/radius", "1",
+                  "scene.json: object: unknown key \"radius\"; the known ones are type, point, "
+                  "normal, material, occluder_layer"},
         ErrorCase{"/objects", "[]", "scene.json: objects: cannot be combined with \"object\""},
         ErrorCase{"/material/albedo/2", "1.5",
                   "scene.json: material.albedo[2]: must be between 0 and 1, is 1.5"},

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <sstream>
 
+#include <fmt/format.h>
+
 #include "scene/scene_file.h"
 
 namespace candelabra::app
@@ -97,7 +99,8 @@ void JsonValue::refuseOtherKeys(const std::vector<std::string>& known) const
     requireObject();
     for (const auto& [key, value] : value_->items())
         if (std::find(known.begin(), known.end(), key) == known.end())
-            fail("unknown key \"" + printable(key, 60) + "\"");
+            fail(fmt::format("unknown key \"{}\"; the known ones are {}", printable(key, 60),
+                             fmt::join(known, ", ")));
 }
 
 JsonValue JsonValue::item(size_t i) const
