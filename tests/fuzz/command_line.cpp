@@ -14,6 +14,7 @@ Seeds fuzzSeeds()
             "stress\n--lights\n1000,4000\n--size=1280x720\n--json\ns.json",
             "profile\nhall\n--ab\n--specular karis\n--specular conic\n--frames\n30",
             "compare\na.json\nb.json\n--tolerance\n2",
+            "diff\na.exr\nb.exr\n--max-relmse\n1e-6\n-o\nheat.png",
             "view\nfield\n--moving\n--frames\n3",
             "truth\nscene.json\n-o\nt.exr\n--shard\n1/3",
             "bench\naccuracy\n--groups\n20\n--seed\n4",
@@ -40,8 +41,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size)
     static CLI::App app("fuzzed"); // created once, because creation takes longer than parsing
     if (app.get_subcommands({}).empty())
         for (const auto add : {addBenchCommand, addCompareCommand, addDevicesCommand,
-                               addProfileCommand, addRenderCommand, addReportCommand,
-                               addStressCommand, addTruthCommand, addViewCommand})
+                               addDiffCommand, addProfileCommand, addRenderCommand,
+                               addReportCommand, addStressCommand, addTruthCommand, addViewCommand})
             add(app, run);
     try {
         app.parse(int(argv.size()), argv.data());

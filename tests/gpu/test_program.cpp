@@ -19,6 +19,7 @@
 #include "harness/paths.h"
 #include "harness/temporary_folder.h"
 #include "harness/xml.h"
+#include "io/error.h"
 #include "io/image.h"
 #include "io/table.h"
 #include "render/renderer.h"
@@ -523,6 +524,26 @@ TEST_F(ProgramTest, ProfiledRunsCollectAndCompare)
     EXPECT_NE(text("out.txt").find("shade_tiles"), std::string::npos) << text("out.txt");
     EXPECT_NE(text("out.txt").find("fewer than 4 runs of each"), std::string::npos)
         << text("out.txt");
+}
+
+TEST_F(ProgramTest, PicturesOfTheSameSceneAreTheSame)
+{
+    const std::string render = "render hall --lights 20 --size 32x18 --shadows off -q ";
+    ASSERT_EQ(run(render + "-o a.png -o a.exr").exitCode, 0);
+    ASSERT_EQ(run(render + "-o b.png -o b.exr --seed 2").exitCode, 0);
+    // Not run(), because diff does not take a device.
+    const auto diff = [&](const std::string& arguments) {
+        const std::string command = "cd '" + path() + "' && " + test::programWord() + " diff " +
+                                    arguments + " >out.txt 2>err.txt";
+        return WEXITSTATUS(std::system(command.c_str()));
+    };
+    EXPECT_EQ(diff("a.exr a.exr"), 0) << text("err.txt");
+    for (const char* both : {"a.exr b.exr", "a.png b.png"}) {
+        EXPECT_EQ(diff(std::string(both) + " -o heat.png"), app::exitBeyond) << text("err.txt");
+        EXPECT_EQ(text("out.txt").find("Different: "), 0u) << text("out.txt");
+        EXPECT_GT(readPng(path("heat.png")).distinct, 20);
+    }
+    EXPECT_EQ(diff("a.exr b.exr --max-relmse 1e6"), 0) << text("out.txt");
 }
 
 TEST_F(ProgramTest, BenchSkipComparesFramesOfTheSameImage)

@@ -36,7 +36,7 @@ def environment(**more):
 
 def start(arguments, folder, executable=(program,), **options):
     if device and arguments and arguments[0] not in (
-            "compare", "truth", "devices", "help", "examples") and "--device" not in arguments:
+            "compare", "diff", "truth", "devices", "help", "examples") and "--device" not in arguments:
         arguments = [*arguments, "--device", device]
     options = {"stdout": subprocess.PIPE, "env": environment()} | options
     return subprocess.Popen([*executable, *arguments], cwd=folder, stdin=subprocess.DEVNULL,
@@ -131,6 +131,7 @@ BAD = {
     "--merge": ["no_such.truth", "empty.truth", "noise.truth", "folder.truth"],
     "--scene": ["village", "no_such.glb", "empty.json", "folder.json"],
     "--types": NAMES, "--light-types": NAMES, "--methods": NAMES,
+    "--max-relmse": [*NUMBERS, "-1"],
     "--a": ["no_such.json", "empty.json", "noise.json"], "--b": ["no_such.json"],
 }
 # Exceptions by command and option. None: tested only together with other options, under
@@ -138,6 +139,7 @@ BAD = {
 BAD_OF = {
     ("compare", "--json"): ["no/such/folder/x.json", "."], ("devices", "--json"): ["=maybe"],
     ("truth", "--output"): ["x.png", "x", "no/such/x.exr", "folder.exr"],
+    ("diff", "--output"): ["x.exr", "x", "no/such/x.png", "folder.png", "/dev/full"],
     ("profile", "--ab"): None, ("truth", "--merge"): None,
     ("view", "--frames"): COUNTS, ("bench skip", "--scene"): ["village"],
     ("compare", "--a"): None, ("compare", "--b"): None,
@@ -151,7 +153,7 @@ BASE = {
     "render": ["render", "hall", "--lights=5", "--size=8x8", "--output=x.png"],
     "stress": ["stress", "--lights=5", "--size=8x8", "--out=o", "-q"],
     "profile": ["profile", "hall", "--lights=5", "--size=8x8", "--frames=6"],
-    "compare": ["compare", "run.json", "run.json"],
+    "compare": ["compare", "run.json", "run.json"], "diff": ["diff", "dot.pfm", "dot.pfm"],
     "report": ["report", "--parts=profile", "--lights=5", "--size=8x8", "--out=o"],
     "view": ["view", "--scene=hall", "--lights=5", "--size=64x64", "--frames=1"],
     "truth": ["truth", "scene.json", "--size=4x4", "--output=x.exr"],
@@ -198,6 +200,9 @@ COMBINATIONS = [
     (["examples", "."], "--replace"), (["examples", "no/such"], "no/such"),
     (["compare"], "A"), (["compare", "run.json"], "B"),
     (["compare", "--a", "run.json"], "B"), (["compare", "--a", "no_such.json", "--b", "run.json"], "no_such.json"),
+    (["diff"], "A"), (["diff", "dot.pfm", "noise.pfm"], "noise.pfm"), (["diff", "sky.png", "dot.pfm"], "sky.png"),
+    (["diff", "dot.pfm", "no_such.exr"], "no_such.exr"), (["diff", "sky.png", "sky.png"], "sky.png"),
+    (["diff", "dot.pfm", "dot.pfm", "--json", "dot.pfm"], "dot.pfm"), (["compare", "sky.png", "run.json"], "sky.png"),
     (["compare", "run.json", "noise.json"], "noise.json"), (["compare", "run.json", "other.json"], "other.json"),
 ]
 
@@ -210,6 +215,7 @@ def furnish(folder):
     for extension in ("json", "exr", "hdr", "pfm", "glb", "gltf", "truth"):
         (folder / f"empty.{extension}").write_bytes(b"")
         (folder / f"noise.{extension}").write_bytes(random.Random(extension).randbytes(999))
+    (folder / "dot.pfm").write_bytes(b"Pf\n1 1\n-1.0\n" + b"\0" * 4)
     (folder / "sky.png").write_bytes(b"\x89PNG\r\n\x1a\n")
     shutil.copy(data / "every_light.json", folder / "scene.json")
     passes = [{"name": "shade_tiles", "minMs": 12, "medianMs": 12.5}]
@@ -365,6 +371,8 @@ WRITERS = [
     (["truth", "scene.json", "--size", "32x32", "--tolerance", "1e-2", "-q", "-o", "{}/x.hdr"], "x.hdr", False),
     (["truth", "scene.json", "--size", "32x32", "--tolerance", "1e-2", "-q", "--shard", "1/1", "-o", "{}/x.truth"], "x.truth", False),
     (["compare", "run.json", "run.json", "--json", "{}/x.json"], "x.json", False),
+    (["diff", "dot.pfm", "dot.pfm", "--json", "{}/x.json"], "x.json", False),
+    (["diff", "dot.pfm", "dot.pfm", "-q", "-o", "{}/x.png"], "x.png", False),
 ] + [(["render", "hall", "--lights", "5", "--size", "96x96", "-q", "-o", "{}/x." + e], "x." + e, True)
      for e in ("png", "exr", "pfm", "hdr")] + [
     (["render", "hall", "--lights", "5", "--size", "8x8", "-q", "--json", "{}/x.json"], "x.json", True),
@@ -380,7 +388,7 @@ WRITERS = [
 ]
 PRINTERS = [(["--help"], False), (["render", "--help"], False),
             (["--version"], False), (["compare", "run.json", "run.json"], False),
-            (["compare", "run.json", "run.json", "--json", "-"], False), (["devices"], True), (["devices", "--json"], True),
+            (["compare", "run.json", "run.json", "--json", "-"], False), (["diff", "dot.pfm", "dot.pfm"], False), (["devices"], True), (["devices", "--json"], True),
             (["render", "hall", "--lights", "5", "--size", "8x8", "-q", "--json", "-"], True),
             (["render", "hall", "--lights", "5", "--size", "8x8", "-q", "--pick", "4,4"], True),
             (["profile", "hall", "--lights", "5", "--size", "8x8", "--frames", "2", "-q", "--json", "-"], True)]

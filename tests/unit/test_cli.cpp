@@ -102,6 +102,7 @@ TEST(Cli, MessagesOfTheParserBecomeSentences)
         {{"profile", "hall", "--ab", "x"}, "--ab: needs 2 values"},
         {{"profile", "hall", "--ab", "--lights 4", ""}, "\"--lights\" and \"4\" are not expected"},
         {{"compare", "a"}, "compare: give results"},
+        {{"compare", "a.json", "b.PNG"}, "b.PNG is a picture; candelabra diff compares pictures"},
     };
     for (const auto& [arguments, sentence] : cases) {
         const Outcome outcome = runWith(arguments);

@@ -74,7 +74,7 @@ TEST_F(CompareCommand, SaysWhatIsSlowerAndEndsWithThree)
 {
     const std::string a = write("a.json", runs(5, 50)), b = write("b.json", runs(5, 52.5));
     const ProgramOutcome outcome = compare({a, b, "--json", "-"});
-    EXPECT_EQ(outcome.exitCode, exitSlower) << outcome.err;
+    EXPECT_EQ(outcome.exitCode, exitBeyond) << outcome.err;
     const json out = json::parse(outcome.out);
     EXPECT_EQ(candelabra::test::keyFaults(out, "compare"), "");
     EXPECT_EQ(out["slower"], true);

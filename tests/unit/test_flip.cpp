@@ -73,6 +73,9 @@ TEST(ImageDifferences, OfAKnownFactor)
     EXPECT_NEAR(d.maxOverPeak, 0.1, 1e-6);
     EXPECT_NEAR(d.energy, 0.1, 1e-6);
     EXPECT_NEAR(d.relL1, 0.1, 1e-6);
+    const std::vector<double> errors = relativeErrors(value, truth);
+    EXPECT_NEAR(errors[0], 0.1 / std::sqrt(1.01), 1e-3);
+    EXPECT_EQ(errors[3], 0);
     // 0.04 / (4 + 0.01 mean^2) with a mean of nearly 2; the black sample has no error.
     EXPECT_NEAR(d.relMse, 0.01 / 1.01 * 299 / 300, 1e-5);
 

@@ -24,10 +24,12 @@
 #include <gtest/gtest.h>
 #include <half.h>
 #include <stb/stb_image.h>
+#include <stb/stb_image_write.h>
 #include <sys/resource.h>
 
 #include "harness/constants.h"
 #include "io/image.h"
+#include "io/image_file.h"
 #include "unit/gltf_builder.h"
 
 namespace candelabra::test
@@ -546,6 +548,36 @@ TEST(ImageFiles, PngKeepsEveryByte)
     ASSERT_EQ(h, 31);
     ASSERT_EQ(n, 3);
     EXPECT_EQ(std::vector<uint8_t>(pixels.get(), pixels.get() + rgb.size()), rgb);
+}
+
+TEST(ImageFiles, PngIsReadAsItWasWritten)
+{
+    const TemporaryFolder folder;
+    const std::vector<uint8_t> rgb{0, 1, 127, 128, 254, 255};
+    const std::string path = folder.path("image.PNG");
+    savePng(path, 1, 2, rgb);
+    const DisplayImage image = loadPng(path);
+    ASSERT_EQ(image.width, 1u);
+    ASSERT_EQ(image.height, 2u);
+    for (size_t i = 0; i < rgb.size(); ++i)
+        EXPECT_EQ(image.pixels[i / 3][int(i % 3)], rgb[i] / 255.0f) << i;
+
+    std::vector<uint8_t> bytes = readImageFile(path);
+    bytes.resize(bytes.size() - 20);
+    folder.write("short.png", bytes);
+    bytes.resize(20);
+    folder.write("header.png", bytes);
+    folder.write("text.png", "text");
+    const uint8_t half[]{255, 255, 255, 255, 9, 9, 9, 128};
+    stbi_write_png(folder.path("clear.png").c_str(), 2, 1, 4, half, 8);
+    const auto refusal = [&](const char* name) {
+        return errorOf([&] { loadPng(folder.path(name)); });
+    };
+    EXPECT_NE(refusal("short.png").find("short.png: is damaged, cut short"), std::string::npos);
+    EXPECT_NE(refusal("header.png").find("broken PNG header"), std::string::npos);
+    EXPECT_NE(refusal("text.png").find("is not a PNG file"), std::string::npos);
+    EXPECT_NE(refusal("clear.png").find("pixel (1, 0) is transparent"), std::string::npos);
+    EXPECT_NE(refusal("none.png").find("No such file"), std::string::npos);
 }
 
 TEST(ImageFiles, ErrorsNameTheFile)

@@ -239,6 +239,7 @@ int parseAndRun(int typedCount, const char* const* typed)
     addStressCommand(app, run);
     addProfileCommand(app, run);
     addCompareCommand(app, run);
+    addDiffCommand(app, run);
     addReportCommand(app, run);
     addViewCommand(app, run);
     addTruthCommand(app, run);

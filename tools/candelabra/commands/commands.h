@@ -17,6 +17,7 @@ using Run = std::function<int(const ProgramContext&)>;
 void addBenchCommand(CLI::App& app, Run& run);
 void addCompareCommand(CLI::App& app, Run& run);
 void addDevicesCommand(CLI::App& app, Run& run);
+void addDiffCommand(CLI::App& app, Run& run);
 void addExamplesCommand(CLI::App& app, Run& run);
 void addProfileCommand(CLI::App& app, Run& run);
 void addRenderCommand(CLI::App& app, Run& run);

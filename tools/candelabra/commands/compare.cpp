@@ -10,6 +10,7 @@
 
 #include "commands/commands.h"
 #include "io/error.h"
+#include "io/image.h"
 #include "io/table.h"
 #include "measure/profile/run_comparison.h"
 #include "measure/profile/run_file.h"
@@ -217,6 +218,11 @@ int compare(const ProgramContext& program, const CompareArguments& given)
         args.b = {args.fileB};
     if (args.a.empty() || args.b.empty())
         throw UsageError("compare: give results of candelabra profile --json for both A and B");
+    for (const auto* side : {&args.a, &args.b})
+        for (const std::string& file : *side)
+            if (isPictureName(file))
+                throw UsageError("compare: " + file +
+                                 " is a picture; candelabra diff compares pictures");
     const std::vector<ProfiledRun> a = runsOf(args.a), b = runsOf(args.b);
     if (args.paired && a.size() != b.size())
         throw UsageError(fmt::format("--paired: A has {} and B {}, but both need the same number",
@@ -259,7 +265,7 @@ int compare(const ProgramContext& program, const CompareArguments& given)
                               {"tolerance", tolerance},
                               {"rows", comparedJson(rows)},
                               {"slower", slower}});
-    return slower ? exitSlower : exitOk;
+    return slower ? exitBeyond : exitOk;
 }
 
 } // namespace

@@ -3,7 +3,6 @@
 // compared with, in one call or in shards that another call merges.
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <numeric>
 #include <utility>
@@ -70,14 +69,6 @@ void requireLinearImage(const std::string& path, bool whole)
                          ": this format has no NaN for missing pixels; choose .exr or .pfm");
 }
 
-// Throws UsageError if writing `output` would replace `input`.
-void requireOther(const std::string& output, const std::string& input)
-{
-    std::error_code missing; // a file that does not exist is not the same
-    if (std::filesystem::equivalent(output, input, missing))
-        throw UsageError("-o " + output + ": would replace " + input + ", which is read");
-}
-
 void warnOfUnconverged(uint64_t count)
 {
     if (count)
@@ -94,7 +85,7 @@ int merge(const TruthArguments& a)
     requireLinearImage(a.output, true);
     requireWritable("-o", a.output);
     for (const std::string& path : a.merge)
-        requireOther(a.output, path);
+        requireOther("-o", a.output, path);
     std::vector<TruthShard> shards;
     uint64_t unconverged = 0;
     Image image;
@@ -183,7 +174,7 @@ int truth(const ProgramContext& program, const TruthArguments& a)
     if (a.shard.empty())
         requireLinearImage(a.output, a.pixels.empty());
     requireWritable("-o", a.output);
-    requireOther(a.output, a.scene.scene);
+    requireOther("-o", a.output, a.scene.scene);
     reference::TruthOptions options = truthOptions(a);
     const uint32_t pixels =
         a.pixels.empty() ? 0 : unsignedOption("--pixels", a.pixels, 1, UINT32_MAX);

@@ -11,7 +11,7 @@ namespace candelabra::app
 constexpr int exitOk = 0;
 constexpr int exitFailed = 1; // something that should have worked did not, or a check failed
 constexpr int exitUsage = 2;  // arguments, files or an environment the program cannot work with
-constexpr int exitSlower = 3; // candelabra compare found something that takes longer
+constexpr int exitBeyond = 3; // candelabra diff: different; candelabra compare: slower
 
 // The arguments cannot be used. The program ends with exit code 2.
 struct UsageError : std::runtime_error {

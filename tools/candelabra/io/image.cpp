@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes PNG and Radiance HDR, reads and writes PFM. Radiance HDR is read in image_hdr.cpp; OpenEXR
+// Reads and writes PNG and PFM, writes Radiance HDR. Radiance HDR is read in image_hdr.cpp; OpenEXR
 // is in image_exr.cpp.
 #include "io/image.h"
 
@@ -10,8 +10,11 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <limits>
+#include <memory>
 
 #include <fmt/format.h>
+#include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
 
 #include "io/image_file.h"
@@ -54,6 +57,12 @@ std::string lowerExtension(const std::string& path)
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return extension;
+}
+
+bool isPictureName(const std::string& path)
+{
+    const std::string extension = lowerExtension(path);
+    return extension == ".png" || extension == ".exr" || extension == ".hdr" || extension == ".pfm";
 }
 
 void savePng(const std::string& path, uint32_t width, uint32_t height, std::span<const uint8_t> rgb)
@@ -141,6 +150,39 @@ Image loadPfm(const std::string& path)
                                              "they are",
                                              path, std::abs(scale)));
     return image;
+}
+
+DisplayImage loadPng(const std::string& path)
+{
+    const std::vector<uint8_t> bytes = readImageFile(path);
+    constexpr std::string_view magic = "\x89PNG\r\n\x1a\n"; // stb reads other formats too
+    if (bytes.size() < magic.size() || std::memcmp(bytes.data(), magic.data(), magic.size()) != 0)
+        failRead(path, "is not a PNG file");
+    if (bytes.size() > size_t(std::numeric_limits<int>::max()))
+        failRead(path, "is larger than 2 GiB");
+    const int size = int(bytes.size());
+    int width = 0, height = 0, channels = 0;
+    if (!stbi_info_from_memory(bytes.data(), size, &width, &height, &channels))
+        failRead(path, "has a broken PNG header");
+    if (width > int(maxImageSize) || height > int(maxImageSize))
+        failRead(path, fmt::format("is larger than {} pixels a side", maxImageSize));
+    // Values of 8 bits become values of 16 bits with the same share of the largest one.
+    const std::unique_ptr<stbi_us, void (*)(void*)> rgba(
+        stbi_load_16_from_memory(bytes.data(), size, &width, &height, &channels, 4),
+        stbi_image_free);
+    if (!rgba)
+        failRead(path, "is damaged, cut short or a rare kind of PNG");
+    DisplayImage out{uint32_t(width), uint32_t(height), {}};
+    constexpr float most = 65535;
+    out.pixels.reserve(size_t(width) * size_t(height));
+    for (size_t i = 0; i < size_t(width) * size_t(height); ++i) {
+        const stbi_us* p = &rgba.get()[4 * i];
+        if (p[3] != most)
+            failRead(path, fmt::format("pixel ({}, {}) is transparent, and has no single colour",
+                                       i % size_t(width), i / size_t(width)));
+        out.pixels.emplace_back(p[0] / most, p[1] / most, p[2] / most);
+    }
+    return out;
 }
 
 Image loadImageByExtension(const std::string& path)

@@ -54,6 +54,8 @@ void savePfm(const std::string& path, const Image& image);
 
 // Returns the extension of a file name, such as ".exr", in lower case.
 std::string lowerExtension(const std::string& path);
+// Whether the extension is one that pictures have: .png, .exr, .hdr or .pfm.
+bool isPictureName(const std::string& path);
 
 // Writes .exr, .hdr or .pfm, depending on the extension of `path` in upper or lower case. Other
 // extensions are errors.
@@ -71,5 +73,7 @@ Image loadHdr(const std::string& path);
 // Reads .exr, .hdr or .pfm, depending on the extension of `path` in upper or lower case. Other
 // extensions are errors.
 Image loadImageByExtension(const std::string& path);
+// Reads a PNG file, whose values are taken for sRGB. Grey becomes RGB. Pixels must be opaque.
+DisplayImage loadPng(const std::string& path);
 
 } // namespace candelabra::app

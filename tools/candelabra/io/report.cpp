@@ -84,6 +84,14 @@ void requireWritable(const std::string& option, const std::string& path)
             fmt::format("{} {}: cannot write into {}: {}", option, path, directory, refusal));
 }
 
+void requireOther(const std::string& option, const std::string& output, const std::string& input)
+{
+    std::error_code missing; // a file that does not exist is not the same
+    if (std::filesystem::equivalent(output, input, missing))
+        throw UsageError(
+            fmt::format("{} {}: would replace {}, which is read", option, output, input));
+}
+
 std::string commandLine(int argc, const char* const* argv, const std::string& program)
 {
     std::string out = program;

@@ -22,6 +22,8 @@ void writeJson(const std::string& path, const Json& json);
 // the work is done: `path` is not the name of a regular file, the name is too long, or its
 // directory does not exist or is not writable. `option` is the option that the message names.
 void requireWritable(const std::string& option, const std::string& path);
+// Throws UsageError if writing `output` would replace `input`.
+void requireOther(const std::string& option, const std::string& output, const std::string& input);
 
 // The command line as text, such as "candelabra render hall", with quotes where a shell needs them.
 // `program` is the name that replaces argv[0].

@@ -143,12 +143,10 @@ void saveFrame(const VulkanContext& context, const Renderer& renderer, const std
 
 void requireImageExtension(const std::string& option, const std::string& path)
 {
-    const std::string extension = lowerExtension(path);
-    for (const char* known : {".png", ".exr", ".hdr", ".pfm"})
-        if (extension == known)
-            return;
-    throw UsageError(option + " " + path +
-                     ": the name must end in .png (display) or .exr, .hdr, .pfm (linear radiance)");
+    if (!isPictureName(path))
+        throw UsageError(
+            option + " " + path +
+            ": the name must end in .png (display) or .exr, .hdr, .pfm (linear radiance)");
 }
 
 } // namespace candelabra::app

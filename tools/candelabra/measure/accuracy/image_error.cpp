@@ -53,6 +53,21 @@ DisplayImage displayed(const Image& image, double exposure, CndToneMap curve)
 
 } // namespace
 
+std::vector<double> relativeErrors(const Image& value, const Image& truth)
+{
+    double sum = 0;
+    for (const float t : truth.pixels)
+        sum += double(t);
+    const double floor = 0.1 * sum / double(truth.pixels.size());
+    std::vector<double> out;
+    out.reserve(truth.pixels.size());
+    for (size_t i = 0; i < truth.pixels.size(); ++i) {
+        const double d = std::abs(double(value.pixels[i]) - double(truth.pixels[i]));
+        out.push_back(d > 0 ? d / std::hypot(double(truth.pixels[i]), floor) : 0);
+    }
+    return out;
+}
+
 ImageDifference imageDifference(const Image& image, const Image& truth)
 {
     ImageDifference out;
@@ -68,7 +83,8 @@ ImageDifference imageDifference(const Image& image, const Image& truth)
         sum += double(t);
         peak = std::max(peak, double(t));
     }
-    const double floor2 = 0.01 * (sum / double(n)) * (sum / double(n));
+    for (const double e : relativeErrors(value, truth))
+        out.relMse += e * e / double(n);
     std::vector<double> lit;
     double litSquares = 0;
     for (size_t i = 0; i < n; ++i) {
@@ -76,7 +92,6 @@ ImageDifference imageDifference(const Image& image, const Image& truth)
         const double v = double(value.pixels[i]);
         const double d = std::abs(v - t);
         valueSum += v;
-        out.relMse += d > 0 ? d * d / (t * t + floor2) / double(n) : 0;
         out.relL1 += d;
         out.maxOverPeak = std::max(out.maxOverPeak, d);
         if (t > litShare * peak) {

@@ -18,7 +18,7 @@ struct WorstPixel {
 
 // The differences of all channels of all pixels, where d = value - truth.
 struct ImageDifference {
-    double relMse = 0;      // mean of d^2 / (truth^2 + 0.01 mean(truth)^2)
+    double relMse = 0;      // mean of the squares of relativeErrors()
     double relL1 = 0;       // sum |d| / sum truth
     double maxOverPeak = 0; // largest |d| / largest truth
     double energy = 0;      // sum value / sum truth - 1
@@ -30,6 +30,11 @@ struct ImageDifference {
     size_t invalid = 0;            // values that are NaN or infinite, which count as 0
     std::vector<WorstPixel> worst; // the pixels with the largest |d|, the largest first
 };
+
+// The relative error of every value: |value - truth| / sqrt(truth^2 + 0.01 mean(truth)^2), so that
+// dark values do not count too much. Both images hold as many values, all finite. Where the truth
+// is black everywhere, an error is infinite.
+std::vector<double> relativeErrors(const Image& value, const Image& truth);
 
 // Both images have 3 channels and the same size.
 ImageDifference imageDifference(const Image& value, const Image& truth);
