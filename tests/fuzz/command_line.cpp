@@ -13,7 +13,7 @@ Seeds fuzzSeeds()
     return {"render\nhall\n--lights\n16000\n-o\nhall.png\n--camera\n0,1,2,3,4,5,60\n--size\n64x48",
             "stress\n--lights\n1000,4000\n--size=1280x720\n--json\ns.json",
             "profile\nhall\n--ab\n--specular karis\n--specular conic\n--frames\n30",
-            "compare\na.json\nb.json\n--tolerance\n2",
+            "compare\na.json\nb.json\n--pass\nshade_tiles\n--fail-above\n2",
             "diff\na.exr\nb.exr\n--max-relmse\n1e-6\n-o\nheat.png",
             "view\nfield\n--moving\n--frames\n3",
             "truth\nscene.json\n-o\nt.exr\n--shard\n1/3",

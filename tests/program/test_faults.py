@@ -131,7 +131,7 @@ BAD = {
     "--merge": ["no_such.truth", "empty.truth", "noise.truth", "folder.truth"],
     "--scene": ["village", "no_such.glb", "empty.json", "folder.json"],
     "--types": NAMES, "--light-types": NAMES, "--methods": NAMES,
-    "--max-relmse": [*NUMBERS, "-1"],
+    "--max-relmse": [*NUMBERS, "-1"], "--pass": NAMES, "--fail-above": [*NUMBERS, "-1"],
     "--a": ["no_such.json", "empty.json", "noise.json"], "--b": ["no_such.json"],
 }
 # Exceptions by command and option. None: tested only together with other options, under

@@ -70,29 +70,56 @@ protected:
 
 } // namespace
 
-TEST_F(CompareCommand, SaysWhatIsSlowerAndEndsWithThree)
+TEST_F(CompareCommand, OneRowDecidesAndTheAnswerComesFirst)
 {
     const std::string a = write("a.json", runs(5, 50)), b = write("b.json", runs(5, 52.5));
-    const ProgramOutcome outcome = compare({a, b, "--json", "-"});
+    const ProgramOutcome outcome = compare({a, b, "--pass", "shade", "--json", "-"});
     EXPECT_EQ(outcome.exitCode, exitBeyond) << outcome.err;
     const json out = json::parse(outcome.out);
     EXPECT_EQ(candelabra::test::keyFaults(out, "compare"), "");
-    EXPECT_EQ(out["slower"], true);
+    EXPECT_EQ(out["decision"]["name"], "shade");
+    EXPECT_EQ(out["decision"]["verdict"], "slower");
     EXPECT_EQ(out["statistic"], "min");
     EXPECT_EQ(out["a"]["runs"], 5);
     ASSERT_EQ(out["rows"].size(), 5u);
-    EXPECT_EQ(out["rows"][0]["verdict"], "cannot tell");
-    EXPECT_EQ(out["rows"][1]["name"], "shade");
-    EXPECT_EQ(out["rows"][1]["verdict"], "slower");
-    EXPECT_NEAR(out["rows"][1]["ratio"], 1.05, 0.02);
-    EXPECT_LE(out["rows"][1]["low"], out["rows"][1]["ratio"]);
+    EXPECT_EQ(out["rows"][0]["name"], "shade"); // the row that decides comes first
+    EXPECT_EQ(out["rows"][0]["verdict"], "slower");
+    EXPECT_NEAR(out["rows"][0]["ratio"], 1.05, 0.02);
+    EXPECT_LE(out["rows"][0]["low"], out["rows"][0]["ratio"]);
+    EXPECT_EQ(out["rows"][1]["name"], "cull");
+    EXPECT_EQ(out["rows"][1]["verdict"], "cannot tell");
     for (const json& row : out["rows"]) // the ratio is the quotient of the times beside it
         EXPECT_NEAR(row["ratio"], row["bMs"].get<double>() / row["aMs"].get<double>(), 1e-9);
 
-    const ProgramOutcome back = compare({b, a});
-    EXPECT_EQ(back.exitCode, exitOk);
-    EXPECT_NE(back.out.find("faster"), std::string::npos) << back.out;
-    EXPECT_EQ(compare({a, b, "--tolerance", "10"}).exitCode, exitOk);
+    const auto answer = [&](std::vector<std::string> arguments, int exitCode) {
+        const ProgramOutcome found = compare(std::move(arguments));
+        EXPECT_EQ(found.exitCode, exitCode) << found.out << found.err;
+        return found.out.substr(0, found.out.find('\n'));
+    };
+    // The frame takes 65 and 67.5 ms: 3.8% more.
+    EXPECT_TRUE(answer({a, b}, exitBeyond).starts_with("Slower: frame changed by +"));
+    EXPECT_TRUE(answer({b, a}, exitOk).starts_with("Not slower: frame changed by -"));
+    EXPECT_TRUE(answer({a, b, "--fail-above", "2"}, exitBeyond)
+                    .starts_with("Slower by more than 2%: frame changed by +"));
+    EXPECT_TRUE(answer({a, b, "--fail-above", "10"}, exitOk)
+                    .starts_with("Not slower by more than 10%: frame changed by +"));
+    // Another row that is slower does not decide.
+    const std::string culled = answer({a, b, "--pass", "cull"}, exitCannotTell);
+    EXPECT_TRUE(culled.starts_with("Cannot tell whether B is slower: cull changed by "));
+    EXPECT_NE(culled.find("the smallest change that these runs could have shown"),
+              std::string::npos)
+        << culled;
+    EXPECT_NE(compare({a, b, "--pass", "cull"}).out.find(" slower\n"), std::string::npos);
+}
+
+// The same runs decide otherwise for another limit: what is near it cannot be told.
+TEST_F(CompareCommand, NearTheLimitItCannotBeTold)
+{
+    const std::string a = write("a.json", runs(5, 50)), b = write("b.json", runs(5, 52.5));
+    const double ratio =
+        json::parse(compare({a, b, "--json", "-"}).out)["rows"][0]["ratio"].get<double>();
+    const std::string near = std::to_string(100 * (ratio - 1));
+    EXPECT_EQ(compare({a, b, "--fail-above", near}).exitCode, exitCannotTell);
 }
 
 // The shortest time along a path is that of its cheapest frame, so medians are compared.
@@ -109,13 +136,14 @@ TEST_F(CompareCommand, MediansAreComparedWhereFramesDiffer)
             one["path"] = "turn";
     const std::string fileA = write("a.json", a), fileB = write("b.json", b);
     const ProgramOutcome outcome = compare({fileA, fileB, "--json", "-"});
-    EXPECT_EQ(outcome.exitCode, exitOk) << outcome.err;
+    EXPECT_EQ(outcome.exitCode, exitCannotTell) << outcome.err;
     const json out = json::parse(outcome.out);
     EXPECT_EQ(out["statistic"], "median");
     double product = 1;
     for (const json& one : a)
         product *= one["variants"][0]["time"]["passes"][1]["medianMs"].get<double>();
-    EXPECT_NEAR(out["rows"][1]["aMs"], std::pow(product, 0.2), 1e-9);
+    EXPECT_EQ(out["rows"][2]["name"], "shade");
+    EXPECT_NEAR(out["rows"][2]["aMs"], std::pow(product, 0.2), 1e-9);
 
     const std::string still = write("c.json", runs(5, 50));
     EXPECT_NE(compare({fileA, still, "--force"}).out.find("median of"), std::string::npos);
@@ -129,10 +157,11 @@ TEST_F(CompareCommand, RunsMayLieInManyFilesAndInPairs)
         for (int i = 0; i < 6; ++i)
             arguments.push_back(write(side + std::to_string(i) + ".json", run(50)));
     }
+    arguments.insert(arguments.end(), {"--fail-above", "5"});
     const ProgramOutcome outcome = compare(arguments);
     EXPECT_EQ(outcome.exitCode, exitOk) << outcome.err;
     EXPECT_NE(outcome.out.find("A: 6 runs, B: 6 runs, in pairs"), std::string::npos) << outcome.out;
-    EXPECT_EQ(outcome.out.find("slower"), std::string::npos) << outcome.out;
+    EXPECT_EQ(outcome.out.find(" slower\n"), outcome.out.find("not slower\n") + 3) << outcome.out;
 }
 
 TEST_F(CompareCommand, PassesOfOneSideAreNamed)
@@ -141,9 +170,20 @@ TEST_F(CompareCommand, PassesOfOneSideAreNamed)
     for (json& one : b)
         one["variants"][0]["time"]["passes"].push_back(
             {{"name", "extra"}, {"minMs", 1}, {"medianMs", 2}});
-    const ProgramOutcome outcome = compare({write("a.json", runs(5, 50)), write("b.json", b)});
+    const std::string fileA = write("a.json", runs(5, 50)), fileB = write("b.json", b);
+    const ProgramOutcome outcome = compare({fileA, fileB, "--fail-above", "5"});
     EXPECT_EQ(outcome.exitCode, exitOk) << outcome.err;
     EXPECT_NE(outcome.out.find("not in all of A"), std::string::npos) << outcome.out;
+    const ProgramOutcome decisive = compare({fileA, fileB, "--pass", "extra"});
+    EXPECT_EQ(decisive.exitCode, exitCannotTell);
+    EXPECT_NE(decisive.out.find("Cannot tell whether B is slower: extra is not in all of A."),
+              std::string::npos)
+        << decisive.out;
+    const ProgramOutcome unknown = compare({fileA, fileB, "--pass", "shad"});
+    EXPECT_EQ(unknown.exitCode, exitUsage);
+    EXPECT_NE(unknown.err.find("--pass shad: no run has this row; did you mean shade?"),
+              std::string::npos)
+        << unknown.err;
 }
 
 // A short pass may take less time than the timestamp overhead that is subtracted.
@@ -151,10 +191,11 @@ TEST_F(CompareCommand, PassesTooShortToTimeAreNotCompared)
 {
     json b = runs(5, 50);
     b[3]["variants"][0]["time"]["passes"][0]["minMs"] = 0;
-    const ProgramOutcome outcome =
-        compare({write("a.json", runs(5, 50)), write("b.json", b), "--json", "-"});
-    EXPECT_EQ(outcome.exitCode, exitOk) << outcome.err;
+    const ProgramOutcome outcome = compare(
+        {write("a.json", runs(5, 50)), write("b.json", b), "--pass", "cull", "--json", "-"});
+    EXPECT_EQ(outcome.exitCode, exitCannotTell) << outcome.err;
     const json out = json::parse(outcome.out), row = out["rows"][0];
+    EXPECT_TRUE(out["decision"]["smallestSeenPercent"].is_null());
     EXPECT_EQ(row["verdict"], "too short to time");
     EXPECT_FALSE(row.contains("ratio"));
 }
@@ -168,7 +209,8 @@ TEST_F(CompareCommand, RefusesWhatIsNotComparable)
         EXPECT_EQ(outcome.exitCode, exitUsage) << sentence;
         EXPECT_NE(outcome.err.find(sentence), std::string::npos) << outcome.err;
         EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-        EXPECT_EQ(compare({a, file, "--force"}).exitCode, forcible ? exitOk : exitUsage);
+        EXPECT_EQ(compare({a, file, "--force", "--fail-above", "5"}).exitCode,
+                  forcible ? exitOk : exitUsage);
     };
     json other = runs(5, 50);
     other[2]["provenance"]["device"] = "e";
@@ -199,5 +241,6 @@ TEST_F(CompareCommand, RefusesWhatIsNotComparable)
     EXPECT_EQ(compare({a}).exitCode, exitUsage);
     EXPECT_EQ(compare({a, "no-such.json"}).exitCode, exitUsage);
     EXPECT_EQ(compare({a, a, "--a", a}).exitCode, exitUsage);
+    EXPECT_EQ(compare({a, a, "--fail-above", "-1"}).exitCode, exitUsage);
     EXPECT_EQ(compare({a, write("b.json", runs(2, 50)), "--paired"}).exitCode, exitUsage);
 }

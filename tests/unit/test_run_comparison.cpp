@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Simulated runs: how often noise is reported as a difference, and how often a difference is found.
+#include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -116,4 +117,68 @@ TEST(RunComparison, TooFewRunsAndEqualOnesTellNothing)
         EXPECT_FALSE(same.isFaster() || same.isSlower());
     }
     EXPECT_TRUE(compareRuns({}, false).empty());
+}
+
+// Of one row alone: 2.5% of the decisions at the limit are expected on either side, 10 of 400; 20
+// or more have a probability of 1 in 300.
+TEST(RunDecisions, AtTheLimitOneOfFortyIsWrongOnEitherSide)
+{
+    constexpr int trials = 400;
+    Machine machine(0.003, 0.02);
+    for (const bool paired : {false, true})
+        for (const double bound : {0.0, 0.05}) {
+            int slower = 0, notSlower = 0;
+            for (int trial = 0; trial < trials; ++trial) {
+                const auto runs = machine.measure(6, 1 + bound);
+                const RunDecision d = decideRuns(runs[3], paired, bound);
+                slower += d.slower == Slower::Yes;
+                notSlower += d.slower == Slower::No;
+                EXPECT_LE(d.ratio.low, d.ratio.ratio);
+                EXPECT_GE(d.ratio.high, d.ratio.ratio);
+            }
+            EXPECT_LT(slower, 20) << paired << bound;
+            EXPECT_LT(notSlower, 20) << paired << bound;
+            EXPECT_GT(slower + notSlower, 5) << paired << bound; // not needlessly cautious
+        }
+}
+
+TEST(RunDecisions, FarFromTheLimitTheyAreRight)
+{
+    constexpr int trials = 100;
+    Machine machine(0.003, 0.006);
+    int slower = 0, notSlower = 0;
+    for (int trial = 0; trial < trials; ++trial) {
+        slower += decideRuns(machine.measure(6, 1.1)[3], false, 0.05).slower == Slower::Yes;
+        notSlower += decideRuns(machine.measure(6, 1.0)[3], false, 0.05).slower == Slower::No;
+    }
+    EXPECT_GE(slower, 95);
+    EXPECT_GE(notSlower, 95);
+}
+
+// A measured change decides from `smallestSeen` on.
+TEST(RunDecisions, TheSmallestSlowdownSeenIsWhereTheyTurn)
+{
+    const RunQuantity runs{{1, 1.01, 1.02, 0.99, 0.98, 1}, {1.02, 0.99, 1, 1.01, 0.99, 1}};
+    for (const bool paired : {false, true}) {
+        const RunDecision level = decideRuns(runs, paired, 0.01);
+        EXPECT_EQ(level.slower, Slower::CannotTell);
+        ASSERT_GT(level.smallestSeen, 1.01);
+        for (const double factor : {0.999, 1.001}) {
+            RunQuantity changed = runs;
+            for (double& b : changed.b)
+                b *= factor * level.smallestSeen / level.ratio.ratio;
+            EXPECT_EQ(decideRuns(changed, paired, 0.01).slower,
+                      factor > 1 ? Slower::Yes : Slower::CannotTell)
+                << factor;
+        }
+    }
+}
+
+TEST(RunDecisions, TooFewRunsCannotTellAndEqualOnesAreNotSlower)
+{
+    const RunDecision few = decideRuns({{1, 1, 1}, {9, 9, 9}}, false, 0);
+    EXPECT_EQ(few.slower, Slower::CannotTell);
+    EXPECT_FALSE(std::isfinite(few.smallestSeen));
+    for (const double bound : {0.0, 0.05})
+        EXPECT_EQ(decideRuns({{1, 1, 1, 1}, {1, 1, 1, 1}}, false, bound).slower, Slower::No);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// candelabra compare: tests whether two sets of runs of `candelabra profile`, such as before and
-// after a change, differ significantly.
+// candelabra compare: tests whether the second of two sets of runs of `candelabra profile`, such as
+// before and after a change, is slower.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -11,7 +11,9 @@
 #include "commands/commands.h"
 #include "io/error.h"
 #include "io/image.h"
+#include "io/suggestion.h"
 #include "io/table.h"
+#include "measure/profile/profile_frames.h"
 #include "measure/profile/run_comparison.h"
 #include "measure/profile/run_file.h"
 
@@ -23,7 +25,7 @@ namespace
 struct CompareArguments {
     std::string fileA, fileB;
     std::vector<std::string> a, b;
-    std::string tolerance = "0", json;
+    std::string pass = "frame", failAbove = "0", json;
     bool paired = false, force = false;
 };
 
@@ -128,9 +130,9 @@ bool hasRatio(const ComparedRow& row)
     return allPositive(row.times.a) && allPositive(row.times.b);
 }
 
+// Returns the rows of all runs, without their ratios.
 std::vector<ComparedRow> rowsOf(const std::vector<ProfiledRun>& a,
-                                const std::vector<ProfiledRun>& b, const Statistic& statistic,
-                                bool paired)
+                                const std::vector<ProfiledRun>& b, const Statistic& statistic)
 {
     std::vector<ComparedRow> rows;
     for (const auto* side : {&a, &b})
@@ -145,25 +147,101 @@ std::vector<ComparedRow> rowsOf(const std::vector<ProfiledRun>& a,
                                               timesOf(b, time.name, statistic)},
                                     .ratio = {},
                                     .verdict = ""});
-    std::vector<RunQuantity> comparable;
-    for (const ComparedRow& row : rows)
-        if (hasRatio(row))
-            comparable.push_back(row.times);
-    const std::vector<RunRatio> ratios = compareRuns(comparable, paired);
+    return rows;
+}
+
+// Moves the row that --pass names to the front.
+void putFirst(const std::string& pass, std::vector<ComparedRow>& rows)
+{
+    std::string name = pass;
+    std::vector<std::string> known;
+    for (const WholeTime& whole : wholeTimes) {
+        known.push_back(whole.key);
+        if (pass == whole.key)
+            name = whole.name;
+    }
+    const auto row = std::find_if(rows.begin(), rows.end(),
+                                  [&](const ComparedRow& r) { return r.name == name; });
+    for (const ComparedRow& one : rows)
+        known.push_back(one.name);
+    if (row == rows.end())
+        throw UsageError(
+            fmt::format("--pass {}: no run has this row{}", pass, didYouMean(pass, known)));
+    std::rotate(rows.begin(), row, row + 1);
+}
+
+// Returns why a row has no ratio, or an empty text if it has one.
+std::string whyNoRatio(const ComparedRow& row)
+{
+    return !row.inA && !row.inB ? "not in all runs"
+           : !row.inA           ? "not in all of A"
+           : !row.inB           ? "not in all of B"
+           : !hasRatio(row)     ? "too short to time"
+                                : "";
+}
+
+constexpr const char* decisionNames[] = {"not slower", "slower", "cannot tell"}; // by Slower
+
+// Compares the first row alone, and then all others together.
+RunDecision compareRows(std::vector<ComparedRow>& rows, bool paired, double bound)
+{
+    RunDecision out;
+    std::vector<RunQuantity> others;
+    for (ComparedRow& row : rows) {
+        row.verdict = whyNoRatio(row);
+        if (&row != &rows[0] && hasRatio(row))
+            others.push_back(row.times);
+    }
+    const std::vector<RunRatio> ratios = compareRuns(others, paired);
     auto next = ratios.begin();
     for (ComparedRow& row : rows) {
-        const bool timed = hasRatio(row);
-        if (timed)
-            row.ratio = *next++;
-        row.verdict = !row.inA && !row.inB   ? "not in all runs"
-                      : !row.inA             ? "not in all of A"
-                      : !row.inB             ? "not in all of B"
-                      : !timed               ? "too short to time"
-                      : row.ratio.isFaster() ? "faster"
+        if (!hasRatio(row))
+            continue;
+        if (&row == &rows[0]) {
+            out = decideRuns(row.times, paired, bound);
+            row.ratio = out.ratio;
+            row.verdict = decisionNames[size_t(out.slower)];
+            continue;
+        }
+        row.ratio = *next++;
+        row.verdict = row.ratio.isFaster()   ? "faster"
                       : row.ratio.isSlower() ? "slower"
                                              : "cannot tell";
     }
-    return rows;
+    return out;
+}
+
+double percentOf(double ratio)
+{
+    return 100 * (ratio - 1);
+}
+
+// The answer as one sentence about the row that decides. `tooFew` says how many runs are missing,
+// if they are.
+std::string answer(const std::string& pass, const ComparedRow& row, const RunDecision& decision,
+                   double failAbove, const std::string& tooFew)
+{
+    const std::string by = failAbove > 0 ? fmt::format(" by more than {:g}%", failAbove) : "";
+    const std::string unknown = "Cannot tell whether B is slower" + by + ": ";
+    if (!hasRatio(row))
+        return unknown + pass + " is " + whyNoRatio(row) + ".";
+    if (!tooFew.empty())
+        return unknown + tooFew + ".";
+    const RunRatio& r = decision.ratio;
+    const std::string change =
+        fmt::format("{} changed by {:+.2f}% from A to B (95% interval {:+.2f}% to {:+.2f}%)", pass,
+                    percentOf(r.ratio), percentOf(r.low), percentOf(r.high));
+    switch (decision.slower) {
+    case Slower::Yes:
+        return "Slower" + by + ": " + change + ".";
+    case Slower::No:
+        return "Not slower" + by + ": " + change + ".";
+    default:
+        return unknown + change +
+               fmt::format("; the smallest change that these runs could have shown to be slower{} "
+                           "is {:+.2f}%.",
+                           by, percentOf(decision.smallestSeen));
+    }
 }
 
 std::string comparedTable(const std::vector<ComparedRow>& rows, const Statistic& statistic)
@@ -172,6 +250,8 @@ std::string comparedTable(const std::vector<ComparedRow>& rows, const Statistic&
                  "95% interval", "p", "B is"});
     for (const ComparedRow& row : rows) {
         const bool both = hasRatio(row);
+        if (&row == &rows[1])
+            table.rule();
         table.add({row.name, threeDigits(meanMs(row.times.a)), threeDigits(meanMs(row.times.b)),
                    both ? fmt::format("{:.3f}", row.ratio.ratio) : "-",
                    both ? fmt::format("{:.3f} .. {:.3f}", row.ratio.low, row.ratio.high) : "-",
@@ -204,12 +284,32 @@ Json comparedJson(const std::vector<ComparedRow>& rows)
     return out;
 }
 
-int compare(const ProgramContext& program, const CompareArguments& given)
+struct Compared {
+    std::vector<ProfiledRun> a, b;
+    std::vector<std::string> differences; // reasons not to compare them, which --force overrides
+};
+
+Compared readBoth(const CompareArguments& args)
 {
-    CompareArguments args = given;
-    if (!args.json.empty())
-        requireWritable("--json", args.json);
-    const double tolerance = numberOption("--tolerance", args.tolerance, 0, 1000) / 100;
+    for (const auto* side : {&args.a, &args.b})
+        for (const std::string& file : *side)
+            if (isPictureName(file))
+                throw UsageError("compare: " + file +
+                                 " is a picture; candelabra diff compares pictures");
+    Compared out{runsOf(args.a), runsOf(args.b), {}};
+    if (args.paired && out.a.size() != out.b.size())
+        throw UsageError(fmt::format("--paired: A has {} and B {}, but both need the same number",
+                                     counted(out.a.size(), "run"), counted(out.b.size(), "run")));
+    out.differences = objections(out.a, out.b);
+    if (!out.differences.empty() && !args.force)
+        throw UsageError(out.differences[0] + "; --force compares them nevertheless");
+    for (const std::string& difference : out.differences)
+        spdlog::warn("warning: {}", difference);
+    return out;
+}
+
+CompareArguments withLists(CompareArguments args)
+{
     if (!args.fileA.empty() && (!args.a.empty() || !args.b.empty()))
         throw UsageError("compare: give two files, or lists of them with --a and --b, not both");
     if (!args.fileA.empty())
@@ -218,62 +318,66 @@ int compare(const ProgramContext& program, const CompareArguments& given)
         args.b = {args.fileB};
     if (args.a.empty() || args.b.empty())
         throw UsageError("compare: give results of candelabra profile --json for both A and B");
-    for (const auto* side : {&args.a, &args.b})
-        for (const std::string& file : *side)
-            if (isPictureName(file))
-                throw UsageError("compare: " + file +
-                                 " is a picture; candelabra diff compares pictures");
-    const std::vector<ProfiledRun> a = runsOf(args.a), b = runsOf(args.b);
-    if (args.paired && a.size() != b.size())
-        throw UsageError(fmt::format("--paired: A has {} and B {}, but both need the same number",
-                                     counted(a.size(), "run"), counted(b.size(), "run")));
-    const std::vector<std::string> differences = objections(a, b);
-    if (!differences.empty() && !args.force)
-        throw UsageError(differences[0] + "; --force compares them nevertheless");
-    for (const std::string& difference : differences)
-        spdlog::warn("warning: {}", difference);
+    return args;
+}
 
-    const Statistic statistic = statisticOf(a, b);
-    const std::vector<ComparedRow> rows = rowsOf(a, b, statistic, args.paired);
-    const bool slower = std::any_of(rows.begin(), rows.end(), [&](const ComparedRow& row) {
-        return row.ratio.low > 1 + tolerance;
-    });
-    const size_t needed = args.paired ? minPairedRuns : minRuns;
-    const bool tooFew = std::min(a.size(), b.size()) < needed;
-    if (args.json != "-") {
-        std::string text =
-            fmt::format("A: {}, B: {}{}\n{}", counted(a.size(), "run"), counted(b.size(), "run"),
-                        args.paired ? ", in pairs" : "", comparedTable(rows, statistic));
-        text += "A ms and B ms are geometric means over the runs, and B / A is their quotient.\n";
-        if (tooFew)
-            text += fmt::format("There is no interval with fewer than {} runs of each.\n", needed);
-        else
-            text +=
-                "All intervals hold together with 95% confidence: of twenty such comparisons of "
-                "equal programs, one finds a difference by chance.\n";
-        writeText("-", text);
-    }
+// Returns why there is no interval, or an empty text if there is one.
+std::string tooFewRuns(const Compared& runs, bool paired)
+{
+    const size_t needed = paired ? minPairedRuns : minRuns;
+    return std::min(runs.a.size(), runs.b.size()) >= needed
+               ? ""
+               : fmt::format("an interval needs {} runs of each, and A has {} and B {}", needed,
+                             runs.a.size(), runs.b.size());
+}
+
+int compare(const ProgramContext& program, const CompareArguments& given)
+{
+    if (!given.json.empty())
+        requireWritable("--json", given.json);
+    const double failAbove = numberOption("--fail-above", given.failAbove, 0, 1000);
+    const CompareArguments args = withLists(given);
+    const Compared runs = readBoth(args);
+    const Statistic statistic = statisticOf(runs.a, runs.b);
+    std::vector<ComparedRow> rows = rowsOf(runs.a, runs.b, statistic);
+    putFirst(args.pass, rows);
+    const RunDecision decision = compareRows(rows, args.paired, failAbove / 100);
+    if (args.json != "-")
+        writeText("-",
+                  answer(args.pass, rows[0], decision, failAbove, tooFewRuns(runs, args.paired)) +
+                      fmt::format("\nA: {}, B: {}{}\n{}", counted(runs.a.size(), "run"),
+                                  counted(runs.b.size(), "run"), args.paired ? ", in pairs" : "",
+                                  comparedTable(rows, statistic)) +
+                      "A ms and B ms are geometric means over the runs, and B / A is their "
+                      "quotient. The first row decides: its interval holds with 95% confidence, "
+                      "and its p is that of a ratio at the limit. The intervals of the other rows "
+                      "hold together with 95% confidence, and decide nothing.\n");
     if (!args.json.empty())
-        writeJson(args.json, {{"schema", "candelabra compare 2"},
+        writeJson(args.json, {{"schema", "candelabra compare 3"},
                               {"commandLine", program.commandLine},
-                              {"a", sideJson(args.a, a)},
-                              {"b", sideJson(args.b, b)},
+                              {"a", sideJson(args.a, runs.a)},
+                              {"b", sideJson(args.b, runs.b)},
                               {"paired", args.paired},
-                              {"forcedOver", differences},
+                              {"forcedOver", runs.differences},
                               {"statistic", statistic.name},
                               {"confidence", 0.95},
-                              {"tolerance", tolerance},
-                              {"rows", comparedJson(rows)},
-                              {"slower", slower}});
-    return slower ? exitBeyond : exitOk;
+                              {"decision",
+                               {{"name", rows[0].name},
+                                {"failAbovePercent", failAbove},
+                                {"smallestSeenPercent", percentOf(decision.smallestSeen)},
+                                {"verdict", decisionNames[size_t(decision.slower)]}}},
+                              {"rows", comparedJson(rows)}});
+    return decision.slower == Slower::Yes  ? exitBeyond
+           : decision.slower == Slower::No ? exitOk
+                                           : exitCannotTell;
 }
 
 } // namespace
 
 void addCompareCommand(CLI::App& app, Run& run)
 {
-    CLI::App* command =
-        app.add_subcommand("compare", "Test whether two sets of profile runs differ significantly");
+    CLI::App* command = app.add_subcommand(
+        "compare", "Test whether the second of two sets of profile runs is slower");
     const auto a = std::make_shared<CompareArguments>();
     command->add_option("A", a->fileA,
                         "runs before a change, in a file written by profile --json --append");
@@ -285,8 +389,11 @@ void addCompareCommand(CLI::App& app, Run& run)
         "--paired", a->paired,
         "compare the n-th run of A with the n-th run of B, which was made next to it; this removes "
         "slow drifts of the machine and needs at least 6 runs of each");
-    addOption(*command, "--tolerance", a->tolerance, "PERCENT",
-              "set the exit code to 3 only if something is slower by more than this");
+    addOption(*command, "--pass", a->pass, "NAME",
+              "the row that decides: a pass such as shade_tiles, or gpu (the sum of passes), "
+              "gpuSpan, upload, record or frame");
+    addOption(*command, "--fail-above", a->failAbove, "PERCENT",
+              "the largest slow-down that is accepted");
     command->add_flag("--force", a->force,
                       "compare runs even if their devices, scenes, sizes, paths, numbers of frames "
                       "or of frames in "
@@ -301,17 +408,21 @@ void addCompareCommand(CLI::App& app, Run& run)
         "better 5 with 5 or more. Each run should have 40 frames or more, and all runs\n"
         "equally many. Alternate the runs of A and B, so that a machine that slows down\n"
         "affects both.\n"
-        "\"cannot tell\" means that the interval is wider than the change. \"too short to time\"\n"
-        "means that in some run the pass took no longer than the timestamp that is\n"
-        "subtracted.\n"
-        "The exit code is 3 if something is slower. It is 0 if nothing is slower or if the\n"
-        "difference may be chance.\n\n"
+        "The row of --pass decides. The exit code is 0 if it is not slower than --fail-above\n"
+        "allows, 3 if it is, and 4 if that cannot be told, because the interval contains the\n"
+        "limit. With a limit of 0, equal programs mostly give 4, so choose one that runs can\n"
+        "resolve. The interval of the row is its own, with 95% confidence: a permutation test of\n"
+        "the ratio B / A, exact at the limit. If B is slower by just the limit, 0 and 3 are each\n"
+        "given in one comparison of forty. The other rows decide nothing. Their intervals hold\n"
+        "together with 95% confidence.\n"
+        "\"too short to time\" means that in some run the pass took no longer than the timestamp\n"
+        "that is subtracted.\n\n"
         "Examples:\n"
         "  for i in 1 2 3 4 5; do\n"
         "    old/candelabra profile hall --json a.json --append -q\n"
         "    new/candelabra profile hall --json b.json --append -q\n"
         "  done\n"
-        "  candelabra compare a.json b.json --tolerance 2\n"
+        "  candelabra compare a.json b.json --fail-above 2\n"
         "  candelabra compare --a before*.json --b after*.json --json -");
     command->callback(
         [&run, a] { run = [a](const ProgramContext& program) { return compare(program, *a); }; });

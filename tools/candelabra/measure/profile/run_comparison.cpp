@@ -154,4 +154,50 @@ std::vector<RunRatio> compareRuns(std::span<const RunQuantity> quantities, bool 
     return out;
 }
 
+namespace
+{
+
+// Returns the quantity with the values of one side multiplied.
+RunQuantity scaled(RunQuantity quantity, std::vector<double> RunQuantity::*side, double factor)
+{
+    for (double& x : quantity.*side)
+        x *= factor;
+    return quantity;
+}
+
+// Returns the smallest ratio that would be called slower if only the values of B all changed by the
+// same factor. `now` is the ratio of the quantity. Bisects, because the limit of the test depends
+// on the ratio too.
+double smallestSlower(const RunQuantity& quantity, bool paired, const RunRatio& now)
+{
+    const auto isSlower = [&](double ratio) {
+        const RunQuantity changed = scaled(quantity, &RunQuantity::b, ratio / now.ratio);
+        return compareRuns({&changed, 1}, paired)[0].isSlower();
+    };
+    double low = 1, high = now.high / now.ratio;
+    if (high <= low || std::isinf(high))
+        return high;
+    while (!isSlower(high))
+        high *= high;
+    for (int step = 0; step < 20; ++step) {
+        const double middle = std::sqrt(low * high);
+        (isSlower(middle) ? high : low) = middle;
+    }
+    return high;
+}
+
+} // namespace
+
+RunDecision decideRuns(const RunQuantity& quantity, bool paired, double bound)
+{
+    const RunQuantity atBound = scaled(quantity, &RunQuantity::a, 1 + bound);
+    RunDecision out{.ratio = compareRuns({&atBound, 1}, paired)[0]};
+    RunRatio& r = out.ratio;
+    out.slower = r.isSlower() ? Slower::Yes : r.high <= 1 ? Slower::No : Slower::CannotTell;
+    out.smallestSeen = (1 + bound) * smallestSlower(atBound, paired, r);
+    for (double* x : {&r.ratio, &r.low, &r.high})
+        *x *= 1 + bound;
+    return out;
+}
+
 } // namespace candelabra::app

@@ -3,6 +3,7 @@
 // of the same program do?
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -43,5 +44,22 @@ constexpr size_t minRuns = 4, minPairedRuns = 6;
 // are [0, infinity]. `paired` says that the n-th run of A was made beside the n-th run of B, which
 // removes drift from the comparison; A and B must then have the same number of runs.
 std::vector<RunRatio> compareRuns(std::span<const RunQuantity> quantities, bool paired);
+
+// Whether B takes longer than A by more than a bound.
+enum class Slower { No, Yes, CannotTell };
+
+struct RunDecision {
+    Slower slower = Slower::CannotTell;
+    RunRatio ratio; // `p` is the probability if the ratio were at the bound
+    // The smallest ratio that would be called slower if the times of B all changed by one factor.
+    double smallestSeen = std::numeric_limits<double>::infinity();
+};
+
+// Decides about one quantity alone: is the ratio of B to A above 1 + `bound`? Yes if its interval
+// with 95% confidence is above, No if the interval does not reach higher, else CannotTell. The test
+// is that of compareRuns at the bound: it compares B with A times 1 + `bound`. If the true ratio is
+// exactly at the bound, Yes and No are each given in one of forty comparisons. If it is lower, Yes
+// is rarer, and if it is higher, No is.
+RunDecision decideRuns(const RunQuantity& quantity, bool paired, double bound);
 
 } // namespace candelabra::app
