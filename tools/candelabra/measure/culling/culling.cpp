@@ -393,12 +393,19 @@ Table timeTable(const std::vector<CullingPoint>& sweep)
                  {"contributing", "million pairs"},
                  {"difference", "of largest"}},
                 titleOf(sweep.front()) + "; medians");
+    double longest = 0; // ms, of the frames that were skipped
     for (const CullingPoint& p : sweep) {
         if (&p != &sweep.front())
             table.rule();
-        for (const Contender& c : p.contenders)
+        for (const Contender& c : p.contenders) {
             addRow(table, p, c);
+            longest = std::max(longest, c.skippedMs.value_or(0));
+        }
     }
+    if (longest > 0)
+        table.note(fmt::format("Brute force was skipped where a frame of it was estimated to take "
+                               "longer than --brute-limit allows; --brute-limit {:.0f} draws all.",
+                               std::ceil(1.2e-3 * longest)));
     return table;
 }
 
