@@ -376,7 +376,8 @@ TEST_F(ProgramTest, StressWritesEverythingItPromises)
         run("stress --lights 50,200 --size 128x72 --frames 2 --warm-up 0.1 --out o --json s.json "
             "--validate");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    for (const char* word : {"shade_tiles", "p95 ms", "entries per tile", "identical", "Try next"})
+    for (const char* word : {"shade_tiles", "p95 ms", "entries per tile", "identical", "Try next",
+                             "\nat 200 sphere lights: ", " lights per pixel, no shadows, on "})
         EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
     const auto json = nlohmann::json::parse(text("s.json"));
     EXPECT_EQ(test::keyFaults(json, "stress"), "");
@@ -393,6 +394,38 @@ TEST_F(ProgramTest, StressWritesEverythingItPromises)
     EXPECT_EQ(readPng(path("o/hall_200.png")).width, 128);
     EXPECT_NE(text("o/stress.svg").find("shade_tiles"), std::string::npos);
     EXPECT_EQ(test::xmlFault(path("o/stress.svg")), "");
+}
+
+TEST_F(ProgramTest, StressFindsHowManyLightsAFrameRateCarries)
+{
+    const std::string start = "stress field --size 32x18 --frames 2 --out o --json s.json --fps ";
+    const Outcome none = run(start + "100000 --validate");
+    ASSERT_EQ(none.exitCode, 0) << none.err;
+    EXPECT_NE(none.out.find("not even one light at 100000 frames/s (field, 32x18, "),
+              std::string::npos)
+        << none.out;
+    auto json = nlohmann::json::parse(text("s.json"));
+    EXPECT_EQ(test::keyFaults(json["search"], "stress-search"), "");
+    EXPECT_TRUE(json["search"]["lights"].is_null());
+    EXPECT_EQ(json["points"][0]["lights"], 1);
+    EXPECT_TRUE(json["points"][0]["image"].is_null());
+    EXPECT_NE(text("o/stress.svg").find("100000 frames/s"), std::string::npos);
+    EXPECT_EQ(test::xmlFault(path("o/stress.svg")), "");
+
+    // A machine that is not busy carries some lights at this rate.
+    const Outcome some = run(start + "20");
+    ASSERT_EQ(some.exitCode, 0) << some.err;
+    json = nlohmann::json::parse(text("s.json"));
+    EXPECT_TRUE(some.out.ends_with(json["sentence"].get<std::string>() + "\n")) << some.out;
+    const auto& lights = json["search"]["lights"];
+    for (const auto& point : json["points"]) {
+        const double ms = point["gpuTime"]["total"]["medianMs"];
+        if (point["lights"] == lights) {
+            EXPECT_LE(ms, 50);
+        } else if (lights.is_null() || point["lights"] > lights) {
+            EXPECT_GT(ms, 50) << point["lights"];
+        }
+    }
 }
 
 TEST_F(ProgramTest, StressMeasuresNoLightsAndNeedNotCheck)

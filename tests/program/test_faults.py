@@ -197,6 +197,7 @@ COMBINATIONS = [
     (["render", "hall", "-o", "x.png", "--edge-filter", "--debug", "class"], "--edge-filter"),
     (["render", "hall", "-o", "x.png", "--bloom", "0.1", "--debug", "class"], "--bloom"),
     (["render", "hall", "-o", "x.png", "--bloom", "0.1", "--influence-error", "1/255"], "--bloom"),
+    (["stress", "--fps", "60", "--lights", "9"], "--lights"), (["stress", "--fps", "60", "--check", "none"], "--check"),
     (["examples", "."], "--replace"), (["examples", "no/such"], "no/such"),
     (["compare"], "A"), (["compare", "run.json"], "B"),
     (["compare", "--a", "run.json"], "B"), (["compare", "--a", "no_such.json", "--b", "run.json"], "no_such.json"),

@@ -76,6 +76,9 @@ TEST(Cli, RefusesInOneSentenceThatNamesTheArgument)
         {{"truth", "no_such_scene.json", "-o", "x.exr"}, "no_such_scene.json"},
         {{"render", "hall", "-o", "x.png", "--camera", ""}, "--camera"},
         {{"stress", "--lights", "10,20,10"}, "10 is listed twice"},
+        {{"stress", "--fps", "0"}, "--fps \"0\": must be a number from 0.01 to 100000"},
+        {{"stress", "--fps", "60", "--lights", "9"}, "--fps: cannot be combined with --lights"},
+        {{"stress", "--fps", "60", "--check", "none"}, "--fps: cannot be combined with --check"},
         {{"view", "hall", "--seed="}, "--seed="},
     };
     for (const auto& [arguments, named] : cases) {

@@ -63,6 +63,22 @@ TEST(PassTimes, SummariesAreOrderStatistics)
     EXPECT_EQ(times.frames(), 20u);
 }
 
+TEST(PassTimes, PartsAreMediansOfSums)
+{
+    PassTimes times;
+    EXPECT_EQ(times.medianMs(FramePart::Raster), 0);
+    for (const double ms : {1.0, 5.0, 3.0}) {
+        const PassTime frame[] = {{"raster", 10 * ms, 1, FramePart::Raster},
+                                  {"cull", ms, 1, FramePart::Lighting},
+                                  {"shade", 9 - ms, 1, FramePart::Lighting},
+                                  {"tone_map", 2}};
+        times.add(frame);
+    }
+    EXPECT_EQ(times.medianMs(FramePart::Raster), 30);
+    EXPECT_EQ(times.medianMs(FramePart::Lighting), 9);
+    EXPECT_EQ(times.medianMs(FramePart::Rest), 2);
+}
+
 TEST(PassTimes, PassMissingFromAFrameCountsAsZero)
 {
     PassTimes times;
@@ -111,6 +127,17 @@ TEST(SvgPlot, SlopeOneIsDrawnAsSlopeOne)
     EXPECT_LT(y[1], y[0]); // the y axis of SVG points down
     EXPECT_NEAR(x[2] - x[1], x[1] - x[0], 0.2);
     EXPECT_NEAR(y[2] - y[1], y[1] - y[0], 0.2);
+}
+
+TEST(SvgPlot, SeriesWithoutMarkersAreDashedLines)
+{
+    const auto svg = [](bool marked) {
+        return logLogPlot({}, {{"line", {{1, 5}, {9, 5}}, false, true, marked}});
+    };
+    EXPECT_NE(svg(true).find("<circle"), std::string::npos);
+    EXPECT_EQ(svg(true).find("stroke-dasharray"), std::string::npos);
+    EXPECT_EQ(svg(false).find("<circle"), std::string::npos);
+    EXPECT_NE(svg(false).find("stroke-dasharray"), std::string::npos);
 }
 
 TEST(SvgPlot, SurvivesHardInput)

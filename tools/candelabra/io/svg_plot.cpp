@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -180,7 +181,7 @@ struct Label {
     double y;
     std::string text;
     const char* colour;
-    size_t shape;
+    std::optional<size_t> shape; // none: no marker
 };
 
 // Moves labels apart until none overlaps, keeping their order and the middle of each cluster.
@@ -217,21 +218,26 @@ std::string lines(const std::vector<PlotSeries>& series, const Axis& x, const Ax
             const double px = x.pixel(point.first);
             lastY = y.pixel(point.second);
             path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", px, lastY);
-            markers += marker(markerOf(i), px, lastY, colour);
+            if (series[i].marked)
+                markers += marker(markerOf(i), px, lastY, colour);
         }
         if (path.empty())
             continue;
         if (series[i].connected)
-            out += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"/>\n",
-                               path, colour, series[i].emphasised ? 3.5 : 1.8);
+            out +=
+                fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"{}/>\n",
+                            path, colour, series[i].emphasised ? 3.5 : 1.8,
+                            series[i].marked ? "" : " stroke-dasharray=\"8 5\"");
         out += markers;
-        labels.push_back({lastY, series[i].name, colour, markerOf(i)});
+        labels.push_back({lastY, series[i].name, colour,
+                          series[i].marked ? std::optional(markerOf(i)) : std::nullopt});
     }
     spreadLabels(labels);
     for (const Label& label : labels)
-        out += marker(label.shape, width - right + 14, label.y, label.colour) +
-               fmt::format("<text x=\"{}\" y=\"{:.1f}\" fill=\"{}\">{}</text>\n",
-                           width - right + 26, label.y + 4.5, label.colour, escaped(label.text));
+        out +=
+            (label.shape ? marker(*label.shape, width - right + 14, label.y, label.colour) : "") +
+            fmt::format("<text x=\"{}\" y=\"{:.1f}\" fill=\"{}\">{}</text>\n", width - right + 26,
+                        label.y + 4.5, label.colour, escaped(label.text));
     return out;
 }
 

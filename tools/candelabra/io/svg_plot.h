@@ -16,6 +16,7 @@ struct PlotSeries {
     std::vector<std::pair<double, double>> points; // values <= 0 or not finite are left out
     bool emphasised = false;                       // drawn thicker
     bool connected = true;                         // false: markers without a line
+    bool marked = true;                            // false: a dashed line without markers
 };
 
 struct PlotText {

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "io/statistics.h"
 #include "io/svg_plot.h"
 #include "io/table.h"
 #include "load/load.h"
@@ -64,10 +65,45 @@ bool sameBits(const Pictures& a, const Pictures& b)
     return equal(a.radiance.pixels, b.radiance.pixels) && equal(a.display, b.display);
 }
 
+// The fewest frames that are measured in a search, and the ratio of times from which they suffice.
+constexpr uint32_t fewestFrames = 5;
+constexpr double farRatio = 1.5;
+
+// Renders the frames to measure.
+MeasuredFrames timeFrames(const VulkanContext& context, Renderer& renderer,
+                          const FrameOptions& frame, const StressSettings& settings, bool moving,
+                          Progress& progress)
+{
+    const auto onFrame = [&] { progress.advance(secondsPerFrame); };
+    FrameCounts counts = settings.counts;
+    if (settings.frameMs && counts.measured > fewestFrames) {
+        counts.measured = fewestFrames;
+        MeasuredFrames few = renderFrames(context, renderer, frame, counts, moving, onFrame);
+        const double ratio = few.times.total().medianMs / *settings.frameMs;
+        if (ratio > farRatio || ratio < 1 / farRatio)
+            return few;
+        counts = settings.counts;
+        counts.warmUpSeconds = 0; // they were drawn
+    }
+    return renderFrames(context, renderer, frame, counts, moving, onFrame);
+}
+
 } // namespace
+
+FrameCost StressPoint::cost() const
+{
+    return {.lights = asked,
+            .ms = times.total().medianMs,
+            .lightingMs = times.medianMs(FramePart::Lighting),
+            .rasterMs = times.medianMs(FramePart::Raster),
+            .lightsPerPixel = double(stats.contributingPairs) / size.width / size.height};
+}
 
 double estimatedSeconds(const StressSettings& s, uint32_t lights)
 {
+    if (s.frameMs)
+        return 2 * secondsToBuild + s.counts.warmUpSeconds +
+               1e-3 * *s.frameMs * (s.counts.warmUp + s.counts.measured);
     return 2 * secondsToBuild + secondsPerFrame * (s.counts.warmUp + s.counts.measured) +
            secondsPerPair * pairs(checkRects(s.size, lights, s.check), lights);
 }
@@ -91,15 +127,19 @@ StressPoint measureStressPoint(const VulkanContext& context, const StressSetting
     progress.advance(secondsToBuild);
 
     StressPoint out{.lights = uint32_t(scene.lights.size()),
+                    .asked = lights,
                     .size = settings.size,
                     .scene = sceneJson(scene, renderer)};
     progress.doing(label + ": timing");
     const MeasuredFrames frames =
-        renderFrames(context, renderer, frame, settings.counts, !scene.lightMotions.empty(),
-                     [&] { progress.advance(secondsPerFrame); });
+        timeFrames(context, renderer, frame, settings, !scene.lightMotions.empty(), progress);
     out.times = frames.times;
     out.exposure = frames.last.exposure;
     out.stats = countPairs(context, renderer, frame);
+    if (settings.frameMs) {
+        progress.advance(secondsToBuild);
+        return out;
+    }
 
     progress.doing(label + ": picture");
     const Pictures first = renderOnce(context, renderer, frame);
@@ -198,7 +238,24 @@ std::string checkTable(const std::vector<StressPoint>& points)
 // point.
 constexpr double visibleShare = 0.02;
 
-std::vector<PlotSeries> plotSeries(const std::vector<StressPoint>& points)
+// A line at the time of a frame: the one that is searched for, or else that of 60 frames/s if the
+// total time crosses it.
+std::optional<PlotSeries> frameLine(const StressSettings& settings, const PlotSeries& total)
+{
+    const auto [least, most] =
+        std::minmax_element(total.points.begin(), total.points.end(),
+                            [](const auto& a, const auto& b) { return a.second < b.second; });
+    const double ms = settings.frameMs.value_or(1000.0 / 60);
+    if (!settings.frameMs && (ms < least->second || ms > most->second))
+        return {};
+    const auto [fewest, greatest] = std::minmax_element(total.points.begin(), total.points.end());
+    return PlotSeries{.name = fmt::format("{:g} frames/s", 1000 / ms),
+                      .points = {{fewest->first, ms}, {greatest->first, ms}},
+                      .marked = false};
+}
+
+std::vector<PlotSeries> plotSeries(const StressSettings& settings,
+                                   const std::vector<StressPoint>& points)
 {
     std::vector<std::string> order;
     std::map<std::string, PlotSeries> byName;
@@ -218,7 +275,9 @@ std::vector<PlotSeries> plotSeries(const std::vector<StressPoint>& points)
             share[pass.name] = std::max(share[pass.name], sum > 0 ? pass.medianMs / sum : 0);
         }
     }
-    std::vector<PlotSeries> out{total, brute};
+    std::vector<PlotSeries> out{total};
+    if (brute.points.size() > 1) // one point is no line
+        out.push_back(brute);
     PlotSeries others{.name = "all other passes", .points = {}};
     for (const std::string& name : order) {
         if (share[name] >= visibleShare) {
@@ -235,10 +294,25 @@ std::vector<PlotSeries> plotSeries(const std::vector<StressPoint>& points)
         }
     }
     out.push_back(others);
+    if (const auto line = frameLine(settings, total))
+        out.push_back(*line);
     return out;
 }
 
 } // namespace
+
+std::string searchTable(const std::vector<StressPoint>& points)
+{
+    Table table(
+        {"lights", "frames", "GPU ms per frame", "lighting ms", "raster pass ms", "rest ms"});
+    for (const StressPoint& p : points) {
+        const FrameCost c = p.cost();
+        table.add({grouped(c.lights), grouped(p.times.frames()), threeDigits(c.ms),
+                   threeDigits(c.lightingMs), threeDigits(c.rasterMs), threeDigits(c.restMs())},
+                  {.noisy = isNoisy(p.times.totals())});
+    }
+    return table.text();
+}
 
 std::string stressTables(const std::vector<StressPoint>& points)
 {
@@ -257,6 +331,8 @@ Json stressJson(const StressSettings& settings, const std::vector<StressPoint>& 
         list.push_back({{"lights", p.lights},
                         {"scene", p.scene},
                         {"gpuTime", toJson(p.times)},
+                        {"lightingMs", p.times.medianMs(FramePart::Lighting)},
+                        {"rasterMs", p.times.medianMs(FramePart::Raster)},
                         {"lighting", toJson(p.stats)},
                         {"exposure", toJson(p.exposure)},
                         {"bruteForce",
@@ -267,7 +343,7 @@ Json stressJson(const StressSettings& settings, const std::vector<StressPoint>& 
                           {"bound", BruteCheck::bound},
                           {"shadingMs", p.check.bruteMs}}},
                         {"twoRunsIdentical", p.identical ? Json(*p.identical) : Json()},
-                        {"image", p.image}});
+                        {"image", p.image.empty() ? Json() : Json(p.image)}});
     Json frame = toJson(settings.frame, settings.gbufferLayout);
     frame.erase("camera"); // it belongs to the scene, not to the settings
     return {{"scene", settings.scene},
@@ -283,14 +359,21 @@ Json stressJson(const StressSettings& settings, const std::vector<StressPoint>& 
 std::string stressPlot(const StressSettings& settings, const DeviceInfo& device,
                        const std::vector<StressPoint>& points)
 {
+    const auto [least, most] =
+        std::minmax_element(points.begin(), points.end(), [](const auto& a, const auto& b) {
+            return a.times.frames() < b.times.frames();
+        });
+    const std::string frames = least->times.frames() == most->times.frames()
+                                   ? counted(most->times.frames(), "frame")
+                                   : fmt::format("{} to {}", least->times.frames(),
+                                                 counted(most->times.frames(), "frame"));
     return logLogPlot(
         {.title = fmt::format("GPU time per frame against lights: {}, {}x{}", settings.scene,
                               settings.size.width, settings.size.height),
-         .subtitle = fmt::format("{}; median of {}", device.name,
-                                 counted(settings.counts.measured, "frame")),
+         .subtitle = fmt::format("{}; median of {}", device.name, frames),
          .xAxis = "sphere lights",
          .yAxis = "GPU time (ms)"},
-        plotSeries(points));
+        plotSeries(settings, points));
 }
 
 std::vector<std::string> failedChecks(const std::vector<StressPoint>& points)

@@ -2,6 +2,7 @@
 #include "render/pass_times.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "io/statistics.h"
 
@@ -35,7 +36,7 @@ void PassTimes::add(std::span<const PassTime> frame)
         auto pass = std::find_if(passes_.begin(), passes_.end(),
                                  [&](const Pass& p) { return p.name == time.name; });
         if (pass == passes_.end()) {
-            passes_.push_back({time.name, std::vector<double>(totals_.size() + 1)});
+            passes_.push_back({time.name, time.part, std::vector<double>(totals_.size() + 1)});
             pass = passes_.end() - 1;
         }
         pass->ms.back() += time.ms;
@@ -55,6 +56,15 @@ std::vector<PassSummary> PassTimes::summary() const
 PassSummary PassTimes::total() const
 {
     return summarise("total", totals_);
+}
+
+double PassTimes::medianMs(FramePart part) const
+{
+    std::vector<double> sums(totals_.size());
+    for (const Pass& pass : passes_)
+        if (pass.part == part)
+            std::transform(sums.begin(), sums.end(), pass.ms.begin(), sums.begin(), std::plus<>());
+    return sums.empty() ? 0 : medianOf(std::move(sums));
 }
 
 } // namespace candelabra::app

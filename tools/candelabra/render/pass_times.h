@@ -11,11 +11,16 @@
 namespace candelabra::app
 {
 
+// The part of a frame that a pass belongs to: the raster pass is the program's, lighting is that of
+// the lighting module, and the rest is exposure, the environment and what changes the image.
+enum class FramePart { Raster, Lighting, Rest };
+
 // One pass of one frame.
 struct PassTime {
     std::string name; // the kernel's file name
     double ms = 0;
     uint32_t runs = 1; // the pass ran so often; `ms` is the sum, with one timestamp per run
+    FramePart part = FramePart::Rest;
 };
 
 struct PassSummary {
@@ -38,12 +43,15 @@ public:
     std::vector<PassSummary> summary() const;
     // The statistics of each frame's sum over all passes, under the name "total".
     PassSummary total() const;
+    // The median of each frame's sum over the passes of a part.
+    double medianMs(FramePart part) const;
     // The sums over all passes, one per frame.
     const std::vector<double>& totals() const { return totals_; }
 
 private:
     struct Pass {
         std::string name;
+        FramePart part;
         std::vector<double> ms; // one per frame
     };
     std::vector<Pass> passes_;

@@ -56,10 +56,10 @@ Stats finishedStats(Result<std::optional<Stats>> result)
     return *stats;
 }
 
-void append(std::vector<PassTime>& out, const CndKernelTime* times, uint32_t count)
+void append(std::vector<PassTime>& out, FramePart part, const CndKernelTime* times, uint32_t count)
 {
     for (uint32_t i = 0; i < count; ++i)
-        out.push_back({passName(times[i].name), times[i].ms});
+        out.push_back({.name = passName(times[i].name), .ms = times[i].ms, .part = part});
 }
 
 const std::vector<Material>& materialsOf(const Scene& scene, const RendererOptions& options)
@@ -710,8 +710,8 @@ FrameStats Renderer::stats(uint32_t slot) const
     const std::vector<double> ends = state_->stamps.read(slot);
     out.gpuMs = ends.empty() ? 0 : ends.back();
     out.stamps = state_->stamps.count(slot);
-    const auto addModule = [&](const CndKernelTime* rows, uint32_t count) {
-        append(out.passes, rows, count);
+    const auto addModule = [&](FramePart part, const CndKernelTime* rows, uint32_t count) {
+        append(out.passes, part, rows, count);
         out.stamps += count ? count + 1 : 0; // one more at the beginning of the module
     };
     std::vector<CndKernelTime> rows(CND_MAX_KERNEL_TIMES);
@@ -719,13 +719,13 @@ FrameStats Renderer::stats(uint32_t slot) const
     if (out.lit) {
         out.lighting = lightingStats(slot);
         if (state_->gbuffer.times(slot, rows.data(), count))
-            addModule(rows.data(), count);
+            addModule(FramePart::Raster, rows.data(), count);
         if (state_->environment.get()) {
             const CndEnvironmentStats environment = finishedStats(state_->environment.stats(slot));
-            addModule(environment.kernelTimes, environment.kernelTimeCount);
+            addModule(FramePart::Rest, environment.kernelTimes, environment.kernelTimeCount);
         }
         const size_t first = out.passes.size();
-        addModule(out.lighting.kernelTimes, out.lighting.kernelTimeCount);
+        addModule(FramePart::Lighting, out.lighting.kernelTimes, out.lighting.kernelTimeCount);
         // Shading passes run once for every type of light in the scene.
         const uint32_t types = uint32_t(std::count_if(std::begin(out.lighting.lightTypeCounts),
                                                       std::end(out.lighting.lightTypeCounts),
@@ -739,11 +739,11 @@ FrameStats Renderer::stats(uint32_t slot) const
     out.exposure = finishedStats(state_->exposure.stats(slot));
     if (!state_->unbloomed[slot] &&
         state_->bloom->timer().read(slot, rows.data(), count) == CND_SUCCESS)
-        addModule(rows.data(), count);
-    addModule(out.exposure.kernelTimes, out.exposure.kernelTimeCount);
+        addModule(FramePart::Rest, rows.data(), count);
+    addModule(FramePart::Rest, out.exposure.kernelTimes, out.exposure.kernelTimeCount);
     if (!state_->unfiltered[slot] &&
         state_->edgeFilter->timer().read(slot, rows.data(), count) == CND_SUCCESS)
-        addModule(rows.data(), count);
+        addModule(FramePart::Rest, rows.data(), count);
     out.plan = state_->plan(slot, out);
     return out;
 }
