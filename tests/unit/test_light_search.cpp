@@ -96,6 +96,9 @@ TEST(LightSearch, OneLateMeasurementDoesNotDecide)
                 ASSERT_TRUE(result.lights);
                 EXPECT_LE(timeOf(*result.lights), ms);
                 EXPECT_GE(timeOf(*result.lights), 0.96 * ms) << lights << ", " << late;
+                // Two in a row cost measurements, but do not end the search early.
+                const auto two = searched(timeOf, ms, 1 << 20, 0, 1, {late, late + 1}).result;
+                EXPECT_GE(timeOf(two.lights.value()), 0.9 * ms) << lights << ", " << late;
             }
 }
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
 
 namespace candelabra::app
 {
@@ -72,12 +72,12 @@ public:
             impossible_ = lights;
             return;
         }
+        ++measured_[lights];
         const auto at =
             std::lower_bound(tried_.begin(), tried_.end(), lights,
                              [](const LightTime& t, uint32_t n) { return t.lights < n; });
         if (at != tried_.end() && at->lights == lights) {
             at->ms = std::min(at->ms, *ms);
-            repeated_.insert(lights);
         } else {
             tried_.insert(at, {lights, *ms});
         }
@@ -89,15 +89,17 @@ public:
 private:
     // A time that is too long was perhaps disturbed, unless it is far too long, or close to a
     // shorter one that it agrees with: time grows by no more than the number of lights. Such a
-    // number is measured again once, because it ends the search for larger ones.
+    // number is measured again once, because it ends the search for larger ones, and a second time
+    // if the disturbance lasted so long that it disagrees with later measurements.
     bool isDoubtful(const std::optional<LightTime>& fast, const LightTime& slow) const
     {
-        if (repeated_.contains(slow.lights) || slow.ms > 2 * range_.ms)
+        const uint32_t times = measured_.at(slow.lights);
+        if (slow.ms > 2 * range_.ms)
             return false;
         if (!fast)
-            return slow.lights == 1;
+            return slow.lights == 1 && times < 2;
         const double step = double(slow.lights) / fast->lights;
-        return step > 2 || slow.ms / fast->ms > step;
+        return step > 2 ? times < 2 : slow.ms / fast->ms > step && times < 3;
     }
     // Returns `lights` unless it was tried.
     std::optional<uint32_t> other(uint64_t lights) const
@@ -124,9 +126,9 @@ private:
     }
 
     LightSearchRange range_;
-    std::vector<LightTime> tried_; // ascending
-    std::set<uint32_t> repeated_;
-    uint32_t impossible_ = 0; // no scene has so few lights
+    std::vector<LightTime> tried_;          // ascending
+    std::map<uint32_t, uint32_t> measured_; // how often, by lights
+    uint32_t impossible_ = 0;               // no scene has so few lights
     bool lastFast_ = false;
     int sameSide_ = 0; // how many measurements in a row were all fast enough, or all too slow
 };

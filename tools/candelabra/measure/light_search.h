@@ -24,7 +24,7 @@ struct LightSearchRange {
 };
 
 struct LightSearch {
-    // In ascending order. A number that was measured twice has the shorter time, because other
+    // In ascending order. A number that was measured again has the shortest time, because other
     // programs only make times longer.
     std::vector<LightTime> tried;
     std::optional<uint32_t> lights; // the largest number tried that is fast enough, if any
