@@ -384,7 +384,7 @@ WRITERS = [
     (["bench", "skip", "--lights", "5", "--size", "16x16", "--rounds", "1", "-q", "--out", "{}"], "bench_skip.json", True),
     (["bench", "stability", "--configs", "1000", "--quadrature", "10", "--sweeps", "1", "-q", "--out", "{}"], "bench_stability.json", True),
     (["bench", "culling", "--scenes", "hall", "--lights", "20", "--overlaps", "8", "--size", "32x32", "--rounds", "1", "-q", "--out", "{}"], "bench_culling", True),
-    (["report", "--parts", "profile", "--lights", "5", "--size", "32x32", "--frames", "2", "-q", "--out", "{}"], "index.html", True),
+    (["report", "--parts", "profile", "--lights", "5", "--size", "32x32", "--frames", "2", "-q", "--out", "{}"], "picture0.png", True),
     (["view", "hall", "--lights", "5", "--size", "64x64", "--frames", "2", "-q", "--screenshot", "{}/x.png"], "x.png", True),
 ]
 PRINTERS = [(["--help"], False), (["render", "--help"], False),

@@ -8,6 +8,7 @@ import tempfile
 import xml.dom.minidom
 
 sys.path.insert(0, str(pathlib.Path(sys.argv[1]) / "tools/report"))
+sys.dont_write_bytecode = True
 import report  # noqa: E402
 
 ORIGIN = {"candelabra": "1", "commit": "c <&>", "utc": "2026-01-01T00:00:00Z", "device": "gpu", "deviceType": "discrete GPU",
@@ -60,7 +61,12 @@ with tempfile.TemporaryDirectory() as name:
         page = page_of(folder, culling=culling(ratio, *interval))
         expect(verdict in page, f"ratio {ratio} in {interval}: the page lacks \"{verdict}\"")
     expect("brute force takes 15 times as long" in page, "brute force is compared")
-    expect("no results of this device" in page, "a device without earlier results is not compared")
+    expect("nothing to compare" in page, "a device without earlier results is not compared")
+    no_times = culling(0, None, None)
+    no_times["points"][0]["contenders"] = [{"name": "candelabra", "medianMs": 0.0, "passes": []}]
+    expect("the device has no timestamps" in page_of(folder, culling=no_times), "times of 0 are no answer")
+    wrong = culling(0.5, 0.4, 0.6) | {"failures": ["an image differs"]}
+    expect("WRONG IMAGE" in page_of(folder, culling=wrong), "a wrong image is no success")
     expect("Would I see the errors?" not in page, "what was not measured has no answer")
 
     (folder / "accuracy-x.csv").write_text("# device: gpu\n# driver: driver 1\nlight,method,fresnel1.all.meanPercent\n"
@@ -68,6 +74,9 @@ with tempfile.TemporaryDirectory() as name:
     (folder / "accuracy-y.csv").write_text("# device: other\n# driver: driver 1\nlight,method,fresnel1.all.meanPercent\n"
                                            "sphere,conic,9\n", encoding="utf-8")
     page = page_of(folder, accuracy=accuracy(0.2, 0.01))
+    hidden = accuracy(0.2, 0.01)  # by noise
+    hidden["kernels"]["points"][0]["time"]["above"]["ratioToKaris"] = 0
+    expect("<td>0.00</td>" not in page_of(folder, accuracy=hidden), "a time hidden by noise is no ratio")
     expect("karis errs 20 times as much" in page, "errors of karis are compared with those of conic")
     expect("2 of 2 figures agree" in page and "differs" not in page.split("id=\"committed\"")[1].split("</p>")[1],
            "equal figures agree")

@@ -66,7 +66,7 @@ def import_culling(data):
         rows.append(chosen(p, ["scene", "widthPixels", "heightPixels", "lights", "overlaps", "ratioToBestBaseline",
                                "bestBaseline", "ratioToFloor", "cullingOverShading", "contributingOverListed",
                                "contributingOverListedToTiles", "unlistedClusters"])
-                    | {"unlistedOverTime": walk / own["medianMs"]})
+                    | {"unlistedOverTime": walk / own["medianMs"] if own["medianMs"] else 0})
     return {"culling": ({"rounds": data["rounds"]}, rows)}
 
 
@@ -92,7 +92,7 @@ def import_accuracy(data):
                          [light | chosen(p["error"], PART_ERRORS) for light, p in zip(lights, points)
                           if "formulaAgainstTruth" in p["error"]]),
             "price": ({"rounds": kernels["timing"]["rounds"]},
-                      [light | {t: p["time"][t]["ratioToKaris"] if t in p["time"] else "" for t in TIMES}
+                      [light | {t: p["time"].get(t, {}).get("ratioToKaris") or "" for t in TIMES}
                        for light, p in zip(lights, points)]),
             "thin-lights": ({"groups": thin["groups"]},
                             [chosen(p, ["light", "size", "thickness"]) | chosen(p["error"], THIN_ERRORS)
@@ -122,6 +122,7 @@ def table(head, rows):
     return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
 
 
+# (end, name): records made before `end` show the hall of that name (RESULTS.md, "Terms"). Later ones show today's hall.
 HALLS = [("2026-11-23T06:21", "the hall before 2026-11-23"), ("2026-11-27T16:17", "the hall of 2026-11-23")]
 
 

@@ -250,7 +250,7 @@ std::string comparedTable(const std::vector<ComparedRow>& rows, const Statistic&
                  "95% interval", "p", "B is"});
     for (const ComparedRow& row : rows) {
         const bool both = hasRatio(row);
-        if (&row == &rows[1])
+        if (&row == rows.data() + 1)
             table.rule();
         table.add({row.name, threeDigits(meanMs(row.times.a)), threeDigits(meanMs(row.times.b)),
                    both ? fmt::format("{:.3f}", row.ratio.ratio) : "-",

@@ -87,6 +87,15 @@ void addChart(const Part& part, const char* chapter, const std::string& svg)
     charts.push_back({{"chapter", chapter}, {"file", file}});
 }
 
+// Removes the pictures and charts of an earlier report.
+void removeOldFiles(const std::filesystem::path& directory)
+{
+    for (const char* name : {"picture{}.png", "chart{}.svg"})
+        for (int i = 0;; ++i)
+            if (!std::filesystem::remove(directory / fmt::format(fmt::runtime(name), i)))
+                break;
+}
+
 // The picture of the frame and its heat maps.
 void addFramePictures(const Part& part, Renderer& renderer, const FrameOptions& frame)
 {
@@ -268,34 +277,48 @@ std::filesystem::path pageScript()
     return program.parent_path().parent_path() / "share/candelabra/report/report.py";
 }
 
-// Runs the script and waits for it. Its messages go to stderr.
-void makePage(const ReportPlan& plan, const std::string& committed)
+// Runs python3 and waits for it. Returns whether it succeeded. Throws RunError if there is none.
+bool runPython(std::vector<std::string> words)
 {
-    const std::string script = pageScript().string(), folder = plan.directory.string(),
-                      json = (plan.directory / "report.json").string();
-    std::vector<std::string> words{"python3", script, folder};
-    if (!committed.empty())
-        words.push_back(committed);
+    words.insert(words.begin(), {"python3", "-B"}); // -B: it writes no cache
     std::vector<char*> arguments;
     for (std::string& word : words)
         arguments.push_back(word.data());
     arguments.push_back(nullptr);
     pid_t child = 0;
-    if (!std::filesystem::exists(script))
-        throw RunError(fmt::format("{}: is missing, so there is no page; the figures are in {}",
-                                   script, json));
-    if (const int error =
-            posix_spawnp(&child, "python3", nullptr, nullptr, arguments.data(), environ);
-        error != 0)
-        throw RunError(fmt::format("python3: {}, so there is no page; install it (Debian: apt-get "
-                                   "install python3), then run \"python3 {} {}\"; the figures are "
-                                   "in {}",
-                                   std::strerror(error), script, folder, json));
-    int status = 0;
+    const int error = posix_spawnp(&child, "python3", nullptr, nullptr, arguments.data(), environ);
+    if (error != 0)
+        throw RunError(
+            fmt::format("python3: {}; it makes the page (Debian: apt-get install python3)",
+                        std::strerror(error)));
+    int status = -1;
     while (waitpid(child, &status, 0) < 0 && errno == EINTR)
         continue;
-    if (status != 0)
-        throw RunError(fmt::format("python3 {} made no page; the figures are in {}", script, json));
+    return status == 0;
+}
+
+// Warns before the measurement if there will be no page.
+void warnOfMissingPage()
+{
+    const std::filesystem::path script = pageScript();
+    try {
+        if (!std::filesystem::exists(script))
+            throw RunError(script.string() + ": is missing");
+        runPython({"-c", ""});
+    } catch (const RunError& error) {
+        spdlog::warn("warning: {}; there will be figures and no page", error.what());
+    }
+}
+
+void makePage(const ReportPlan& plan, const std::string& committed)
+{
+    const std::string script = pageScript().string(), folder = plan.directory.string();
+    std::vector<std::string> words{script, folder};
+    if (!committed.empty())
+        words.push_back(committed);
+    if (!runPython(words))
+        throw RunError(fmt::format("{} made no page; the figures are in {}", script,
+                                   (plan.directory / "report.json").string()));
 }
 
 std::vector<PartChoice> chosenParts(const std::string& parts)
@@ -328,6 +351,8 @@ int report(const ProgramContext& program, const ReportArguments& a)
                       json = benchOutput(a.directory, "--out", "", "report.json");
     const auto device = std::make_unique<VulkanContext>(a.device.contextOptions())->info();
     spdlog::info("report on {}; all parts take 2 to 5 minutes", device.name);
+    warnOfMissingPage();
+    removeOldFiles(plan.directory);
     bool faults = false;
     Json document{{"schema", "candelabra report 2"},
                   {"provenance", provenance(device, program.commandLine)},

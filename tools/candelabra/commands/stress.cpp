@@ -14,6 +14,7 @@
 #include "commands/messages.h"
 #include "generate/generators.h"
 #include "io/error.h"
+#include "load/load.h"
 #include "measure/stress.h"
 #include "render/provenance.h"
 #include "scene/scene_error.h"
@@ -151,7 +152,13 @@ StressResult search(const ProgramContext& program, const StressArguments& a,
         throw RunError(
             fmt::format("--fps: {} has no timestamps, which measure frames", context.info().name));
     const double overlaps = settings.sceneOptions.overlaps.value_or(0), ms = *settings.frameMs;
-    const uint32_t most = std::min(maxLights, maxLightsOf(context.info()));
+    // Lights are added to those that a file has.
+    const uint32_t own =
+        isGenerated(a.scene.scene)
+            ? 0
+            : uint32_t(loadScene(a.scene.scene, settings.sceneOptions).lights.size());
+    const uint32_t room = std::min(maxLights, maxLightsOf(context.info()));
+    const uint32_t most = room > own ? room - own : 1;
     const LightSearchRange range{
         .ms = ms,
         // Few lights cannot reach all pixels often.
@@ -192,6 +199,7 @@ StressResult search(const ProgramContext& program, const StressArguments& a,
     out.search = {{"framesPerSecond", 1000 / ms},
                   {"frameMs", ms},
                   {"lights", found.lights ? Json(*found.lights) : Json()},
+                  {"lightsInScene", found.lights ? Json(at->lights) : Json()},
                   {"isMost", found.isMost}};
     return out;
 }
@@ -251,8 +259,8 @@ void addStressCommand(CLI::App& app, Run& run)
               "find the largest number of lights whose frames take 1/F s of GPU time, instead of "
               "measuring --lights; there are at most 12 measurements, and no pictures or checks");
     addOption(*command, "--frames", a->frames, "N",
-              "frames to measure per count, after 2 warm-up frames; with --fps by default at least "
-              "3 s of them, or 5 frames where they take much longer or shorter than 1/F s");
+              "frames to measure per count, after 2 warm-up frames; with --fps by default 3 F of "
+              "them; with --fps, 5 where they take much longer or shorter than 1/F s");
     addWarmUpTo(*command, a->warmUp);
     addOption(*command, "--check", a->check, "NAME",
               "pixels to compare with brute force: auto (all pixels up to 16384 lights, and "
