@@ -238,7 +238,10 @@ bool reachesLight(uint light, FacetShape given, inout ShaftEnds ends)
         sine = 0.5 * v / u;
         ends.radius *= 2.0;
     }
-    ends.radius = SHEARED_RADIUS * ends.radius + 2.0 * MIN_FACET_SIZE * distances.y;
+    if (params.lightType == LIGHT_DISC || params.lightType == LIGHT_RECTANGLE ||
+        params.lightType == LIGHT_POLYGON)
+        ends.radius *= SHEARED_RADIUS;
+    ends.radius += 2.0 * MIN_FACET_SIZE * distances.y;
     const float least = distances.x * MIN_FACET_SIZE; // length of the facet's half axes
     ends.rounding = facetRounding(max(u, least), max(v, least), sine, distanceRatio);
     return isFar && ends.rounding < MAX_ROUNDING;

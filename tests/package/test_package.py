@@ -273,11 +273,14 @@ def pkg_config():
 
 
 def program():
-    """The component of the program alone: it runs, and nothing else is installed."""
+    """The component of the program alone: it runs, and only it and what makes its report are installed."""
     folder = clean(work / "program")
     run("cmake", "--install", build, "--component", "program", "--prefix", folder)
     files = {str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file()}
-    require(files == {"bin/candelabra"}, f"{files} are installed")
+    of_report = {name for name in files if name.startswith("share/candelabra/report/")}
+    require(files - of_report == {"bin/candelabra"}, f"{files} are installed")
+    scripts = {pathlib.PurePath(name).name for name in of_report if name.endswith(".py")}
+    require(scripts == {"report.py", "figures.py"} and any(n.endswith(".csv") for n in of_report), f"{of_report}")
     require(re.match(r"candelabra \d+\.\d+\.\d+\n", run(folder / "bin/candelabra", "--version")),
             "--version")
     libraries = run("readelf", "-d", folder / "bin/candelabra")
