@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // This sample is a host that draws a shadow map and gives the library its shadow term. The camera
-// looks at a wall. A spot light behind the camera shines on the wall. A window frame stands between
-// them, so its shadow falls on the wall. A second light set has one lamp without a shadow map. The
-// lamp lights the whole wall. The shadow term is the host's own GLSL, and Candelabra's kernels run
-// it. The sample writes embed_shadow_map.ppm (or the file named as argument). It compares each
-// pixel of the wall with a closed form, and exits with 1 if one is wrong.
+// sees a wall with the shadow of a window frame, because a spot light shines through the frame.
+// The lamp of a second light set has no shadow map, so it lights the whole wall. The shadow term
+// is the host's own GLSL, and Candelabra's kernels run it. The sample writes embed_shadow_map.ppm
+// (or the file named as argument). It compares each pixel of the wall with a closed form, and exits
+// with 1 if one is wrong.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -247,7 +247,7 @@ TEST_F(VisibilityBits, LightInFullViewKeepsThem)
             drawn[0] = drawFrame(own.view, frameOf(g, images, options), images);
             continue;
         }
-        // The first mesh is one triangle. The triangle is behind the camera, so it hides no light.
+        // The first mesh hides no light, because its only triangle is behind the camera.
         // The second mesh has 17 triangles between the surfaces and the lights. They hide some of
         // the lights.
         std::vector<float> positions = {-9, -9, 5, 9, -9, 5, 0, 9, 5};

@@ -119,8 +119,9 @@ TEST(RunComparison, TooFewRunsAndEqualOnesTellNothing)
     EXPECT_TRUE(compareRuns({}, false).empty());
 }
 
-// Of one row alone: 2.5% of the decisions at the limit are expected on either side, 10 of 400; 20
-// or more have a probability of 1 in 300.
+// This test simulates runs whose true ratio is the limit. Of 400 decisions about one row, 10 (2.5%)
+// are expected to be "slower", and 10 "not slower". Either is 20 or more with a probability of 1 in
+// 300.
 TEST(RunDecisions, AtTheLimitOneOfFortyIsWrongOnEitherSide)
 {
     constexpr int trials = 400;

@@ -6,6 +6,7 @@ RESULTS is a folder of CSV files of earlier results; default: those of the proje
 import base64
 import html
 import json
+import math
 import os
 import sys
 from pathlib import Path
@@ -171,20 +172,15 @@ def committed(folder, origin, tables):
         if (record.head.get("device"), record.head.get("driver")) == (origin["device"], origin["driver"]):
             earlier.setdefault(path.name.split("-")[0], record)
     out = []
-
-    def compare(table, keys, column, interval):
-        key_of = lambda row: tuple(row[key] for key in keys)  # noqa: E731
-        old = {key_of(row): row[column] for row in earlier[table].rows} if table in earlier else {}
+    for table, column in (("accuracy", "fresnel1.all.meanPercent"), ("price", "above")):
+        old = {(row["light"], row["method"]): row[column] for row in earlier[table].rows} if table in earlier else {}
         for row in tables[table].rows if table in tables else []:
-            before, now = old.get(key_of(row), ""), row[column]
-            if "" in (before, now) or (table == "price" and row["method"] == "karis"):
+            before, now = old.get((row["light"], row["method"]), ""), row[column]
+            if "" in (before, now) or before == now == 1:  # the price of karis is 1 by definition
                 continue
-            low, high = interval(row)
+            low, high = row["interval"]
             far = max(low - before, before - high) > FAR * abs(before)
-            out.append((f"{table}, {', '.join(map(str, key_of(row)))}", now, before, far))
-
-    compare("accuracy", ["light", "method"], "fresnel1.all.meanPercent", lambda row: row["interval"])
-    compare("price", ["light", "method"], "above", lambda row: row["interval"])
+            out.append((f"{table}, {row['light']}, {row['method']}", now, before, far))
     return out
 
 
@@ -198,15 +194,15 @@ def same_as_committed(rows):
 
 def add_intervals(report, tables):
     """Gives the rows that are compared with earlier results an interval."""
-    def known(low, high, middle):
-        return (middle if low is None else low, middle if high is None else high)
-
-    if "accuracy" in report:
-        for row, price, p in zip(tables["accuracy"].rows, tables["price"].rows, report["accuracy"]["kernels"]["points"]):
-            mean, margin = row["fresnel1.all.meanPercent"], 1.96 * p["error"]["groupStandardErrorPercent"]
-            row["interval"] = (mean - margin, mean + margin)
-            time = p["time"].get("above")
-            price["interval"] = known(time["ratioToKarisLow"], time["ratioToKarisHigh"], price["above"]) if time else None
+    if "accuracy" not in report:
+        return
+    for row, price, p in zip(tables["accuracy"].rows, tables["price"].rows, report["accuracy"]["kernels"]["points"]):
+        mean, margin = row["fresnel1.all.meanPercent"], 1.96 * p["error"]["groupStandardErrorPercent"]
+        row["interval"] = (mean - margin, mean + margin)
+        time = p["time"].get("above", {})
+        # JSON has no infinity: null is no upper bound.
+        low, high = time.get("ratioToKarisLow") or 0, time.get("ratioToKarisHigh")
+        price["interval"] = (low, math.inf if high is None else high)
 
 
 # --- The page -----------------------------------------------------------------------------------------------------

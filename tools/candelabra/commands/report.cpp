@@ -87,15 +87,6 @@ void addChart(const Part& part, const char* chapter, const std::string& svg)
     charts.push_back({{"chapter", chapter}, {"file", file}});
 }
 
-// Removes the pictures and charts of an earlier report.
-void removeOldFiles(const std::filesystem::path& directory)
-{
-    for (const char* name : {"picture{}.png", "chart{}.svg"})
-        for (int i = 0;; ++i)
-            if (!std::filesystem::remove(directory / fmt::format(fmt::runtime(name), i)))
-                break;
-}
-
 // The picture of the frame and its heat maps.
 void addFramePictures(const Part& part, Renderer& renderer, const FrameOptions& frame)
 {
@@ -350,9 +341,8 @@ int report(const ProgramContext& program, const ReportArguments& a)
     const std::string html = benchOutput(a.directory, "--out", "", "index.html"),
                       json = benchOutput(a.directory, "--out", "", "report.json");
     const auto device = std::make_unique<VulkanContext>(a.device.contextOptions())->info();
-    spdlog::info("report on {}; all parts take 2 to 5 minutes", device.name);
+    spdlog::info("report on {}; all parts take 3 minutes on two CPU cores", device.name);
     warnOfMissingPage();
-    removeOldFiles(plan.directory);
     bool faults = false;
     Json document{{"schema", "candelabra report 2"},
                   {"provenance", provenance(device, program.commandLine)},
@@ -385,7 +375,7 @@ void addReportCommand(CLI::App& app, Run& run)
     a->device.addTo(*command);
     command->footer(
         "The page begins with questions and their answers. Under every part is the command that\n"
-        "repeats it. All parts take 2 to 5 minutes. python3 makes the page.\n\n"
+        "repeats it. All parts take 3 minutes on two CPU cores. python3 makes the page.\n\n"
         "Examples:\n"
         "  candelabra report\n"
         "  candelabra report --parts profile,culling --lights 16000 --out out/culling");

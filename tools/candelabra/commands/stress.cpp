@@ -259,8 +259,8 @@ void addStressCommand(CLI::App& app, Run& run)
               "find the largest number of lights whose frames take 1/F s of GPU time, instead of "
               "measuring --lights; there are at most 12 measurements, and no pictures or checks");
     addOption(*command, "--frames", a->frames, "N",
-              "frames to measure per count, after 2 warm-up frames; with --fps by default 3 F of "
-              "them; with --fps, 5 where they take much longer or shorter than 1/F s");
+              "frames to measure per count, after 2 warm-up frames; with --fps, the default is 3 F "
+              "if that is more, and 5 suffice if their time is far from 1/F s");
     addWarmUpTo(*command, a->warmUp);
     addOption(*command, "--check", a->check, "NAME",
               "pixels to compare with brute force: auto (all pixels up to 16384 lights, and "
