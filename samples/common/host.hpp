@@ -1,28 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The samples in C++ share this in addition to host.h: Candelabra's errors end the program, uses of
-// images, and pipelines and passes of the samples' own.
+// The samples in C++ share this in addition to host.h: uses of images, and pipelines and passes of
+// the samples' own.
 #pragma once
 
-#include <cstdio>
-#include <cstdlib>
 #include <span>
-#include <type_traits>
-#include <utility>
 
 #include <candelabra/candelabra.hpp>
 
 #include "host.h"
-
-template <typename T>
-T orExit(candelabra::Result<T> result)
-{
-    if (!result) {
-        std::fprintf(stderr, "%s\n", result.error().message);
-        std::exit(2);
-    }
-    if constexpr (!std::is_void_v<T>)
-        return std::move(result.value());
-}
 
 inline CndDeviceDesc deviceOf(const Host& host)
 {

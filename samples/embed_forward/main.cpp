@@ -62,17 +62,17 @@ void drawBalls(Host& host, const Raster& pass, VkDescriptorSet lights)
 void drawFrame(Host& host)
 {
     const CndDeviceDesc device = deviceOf(host);
-    auto lighting = orExit(candelabra::Lighting::create(
-        device, {.framesInFlight = 1, .forwardStages = VK_SHADER_STAGE_FRAGMENT_BIT}));
-    auto view = orExit(lighting.createView({.maxWidth = host.width, .maxHeight = host.height}));
+    auto lighting = *candelabra::Lighting::create(
+        device, {.framesInFlight = 1, .forwardStages = VK_SHADER_STAGE_FRAGMENT_BIT});
+    auto view = *lighting.createView({.maxWidth = host.width, .maxHeight = host.height});
     for (const CndLight& light : lamps)
-        orExit(lighting.addLight(light)); // returns an id, to change or remove the light later
-    const Raster pass = createBallPass(host.device, orExit(lighting.forwardSetLayout()));
+        lighting.addLight(light).value(); // returns an id, to change or remove the light later
+    const Raster pass = createBallPass(host.device, lighting.forwardSetLayout().value());
 
     const VkCommandBuffer cmd = beginFrame(&host);
     drawWall(&host);
-    orExit(view.record(cmd, wallFrame(host)));
-    drawBalls(host, pass, orExit(view.forwardSet(0)));
+    view.record(cmd, wallFrame(host)).value();
+    drawBalls(host, pass, view.forwardSet(0).value());
     endFrame(&host);
     destroyRaster(host.device, pass);
 }

@@ -20,34 +20,36 @@ CndExposureStats drawFrame(Host& host)
                                .physicalDevice = host.physicalDevice,
                                .device = host.device,
                                .getInstanceProcAddr = vkGetInstanceProcAddr};
-    auto lighting = orExit(candelabra::Lighting::create(device, {.framesInFlight = 1}));
-    auto view = orExit(lighting.createView({.maxWidth = host.width, .maxHeight = host.height}));
-    auto exposure = orExit(candelabra::Exposure::create(device, {.framesInFlight = 1}));
+    auto lighting = *candelabra::Lighting::create(device, {.framesInFlight = 1});
+    auto view = *lighting.createView({.maxWidth = host.width, .maxHeight = host.height});
+    auto exposure = *candelabra::Exposure::create(device, {.framesInFlight = 1});
     // [readme]
-    orExit(lighting.setLights({&lamp, 1}, {0, 0, 0}));
+    lighting.setLights({&lamp, 1}, {0, 0, 0}).value();
 
     VkCommandBuffer cmd = beginFrame(&host);
     drawWall(&host); // your G-buffer pass; it clears the radiance image or draws emission into it
-    orExit(view.record(cmd, {.width = host.width,
-                             .height = host.height,
-                             .camera = host.camera,
-                             .clearDepth = 0, // depth where there is no surface (reversed depth)
-                             .normalRoughness = host.normalRoughness.view,
-                             .albedo = host.albedo.view,
-                             .specular = host.specular.view,
-                             .depth = host.depth.view,
-                             .radiance = host.radiance.view,
-                             .specularMethod = CND_SPECULAR_CONIC}));
+    const CndLightingFrame frame{.width = host.width,
+                                 .height = host.height,
+                                 .camera = host.camera,
+                                 .clearDepth = 0, // depth without a surface (reversed depth)
+                                 .normalRoughness = host.normalRoughness.view,
+                                 .albedo = host.albedo.view,
+                                 .specular = host.specular.view,
+                                 .depth = host.depth.view,
+                                 .radiance = host.radiance.view,
+                                 .specularMethod = CND_SPECULAR_CONIC};
+    view.record(cmd, frame).value(); // value() prints what failed, and ends the program
     // [readme]
     imageBarrier(cmd, &host.radiance, storageWrite, sampledRead);
-    orExit(exposure.record(cmd, {.width = host.width,
-                                 .height = host.height,
-                                 .radiance = host.radiance.view,
-                                 .display = host.display.view,
-                                 .reset = true, // first frame: no earlier one to adapt from
-                                 .settings = candelabra::defaultExposureSettings()}));
+    const CndExposureFrame display{.width = host.width,
+                                   .height = host.height,
+                                   .radiance = host.radiance.view,
+                                   .display = host.display.view,
+                                   .reset = true, // first frame: no earlier one to adapt from
+                                   .settings = candelabra::defaultExposureSettings()};
+    exposure.record(cmd, display).value();
     endFrame(&host);
-    return *orExit(exposure.stats(0)); // does not wait: endFrame() has waited for this frame
+    return *exposure.stats(0).value(); // does not wait: endFrame() has waited for this frame
 }
 
 // Luminance of a Lambertian wall that faces a sphere light at distance d: albedo times luminance

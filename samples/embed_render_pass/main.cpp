@@ -40,42 +40,44 @@ static CndCamera cameraOf(const Host& host)
 static void drawFrames(Host& host, const GBuffer& gbuffer)
 {
     const CndDeviceDesc device = deviceOf(host);
-    auto lighting = orExit(candelabra::Lighting::create(
+    auto lighting = *candelabra::Lighting::create(
         device,
         {.framesInFlight = 1,
          .gbufferLayout = CND_GBUFFER_HOST,
          .specularMethods = 1u << CND_SPECULAR_NONE, // the sum by hand is without highlights
          .gbuffer = description,
-         .radianceFormat = gbuffer.radiance.format}));
-    auto view = orExit(lighting.createView({.maxWidth = host.width, .maxHeight = host.height}));
-    auto exposure = orExit(candelabra::Exposure::create(device, {.framesInFlight = 1}));
-    orExit(lighting.setLights({&lamp, 1}, {0, 0, 0}));
+         .radianceFormat = gbuffer.radiance.format});
+    auto view = *lighting.createView({.maxWidth = host.width, .maxHeight = host.height});
+    auto exposure = *candelabra::Exposure::create(device, {.framesInFlight = 1});
+    lighting.setLights({&lamp, 1}, {0, 0, 0}).value();
     const GBufferPass pass = createPass(host, gbuffer);
     for (int frame = 0; frame < 3; ++frame) {
         const VkCommandBuffer cmd = beginFrame(&host);
         drawPass(host, pass);
-        orExit(
-            view.record(cmd, {.width = host.width,
-                              .height = host.height,
-                              .camera = cameraOf(host),
-                              .clearDepth = 0,
-                              .normalRoughness = gbuffer.normal.view,
-                              .albedo = gbuffer.albedo.view,
-                              .depth = gbuffer.depth.view,
-                              .depthImageLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL,
-                              .radiance = gbuffer.radiance.view,
-                              .specularMethod = CND_SPECULAR_NONE,
-                              .lobes = CND_LOBES_SUM}));
+        view.record(cmd, {.width = host.width,
+                          .height = host.height,
+                          .camera = cameraOf(host),
+                          .clearDepth = 0,
+                          .normalRoughness = gbuffer.normal.view,
+                          .albedo = gbuffer.albedo.view,
+                          .depth = gbuffer.depth.view,
+                          .depthImageLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL,
+                          .radiance = gbuffer.radiance.view,
+                          .specularMethod = CND_SPECULAR_NONE,
+                          .lobes = CND_LOBES_SUM})
+            .value();
         imageBarrier(cmd, &gbuffer.radiance, storageWrite, exposed);
         imageBarrier(cmd, &host.display, overwritten, storageWrite);
-        orExit(exposure.record(cmd, {.width = host.width,
-                                     .height = host.height,
-                                     .radiance = gbuffer.radiance.view,
-                                     .radianceImageLayout = VK_IMAGE_LAYOUT_GENERAL,
-                                     .display = host.display.view,
-                                     .deltaTime = 1.0f / 60,
-                                     .reset = frame == 0,
-                                     .settings = candelabra::defaultExposureSettings()}));
+        exposure
+            .record(cmd, {.width = host.width,
+                          .height = host.height,
+                          .radiance = gbuffer.radiance.view,
+                          .radianceImageLayout = VK_IMAGE_LAYOUT_GENERAL,
+                          .display = host.display.view,
+                          .deltaTime = 1.0f / 60,
+                          .reset = frame == 0,
+                          .settings = candelabra::defaultExposureSettings()})
+            .value();
         endFrame(&host);
     }
     destroyPass(host, pass);

@@ -67,21 +67,20 @@ static void aim(ShadowParameters& parameters)
 static void drawFrames(Host& host, const ShadowMap& map)
 {
     const CndDeviceDesc device = deviceOf(host);
-    const auto kernels = orExit(candelabra::CompiledKernels::create(
+    const auto kernels = *candelabra::CompiledKernels::create(
         {.functions = CND_HOST_VISIBILITY_BIT,
          .source = shadowTerm,
          .sourceName = "shadow term",
-         .lightTypes = 1u << CND_LIGHT_SPOT | 1u << CND_LIGHT_SPHERE}));
+         .lightTypes = 1u << CND_LIGHT_SPOT | 1u << CND_LIGHT_SPHERE});
     // One module per light set. The second one has the built-in kernels, without a shadow term.
-    auto shadowed = orExit(candelabra::Lighting::create(
-        device, {.framesInFlight = 1, .hostKernels = kernels.hostKernels(map.setLayout)}));
-    auto open = orExit(candelabra::Lighting::create(device, {.framesInFlight = 1}));
-    auto shadowedView =
-        orExit(shadowed.createView({.maxWidth = host.width, .maxHeight = host.height}));
-    auto openView = orExit(open.createView({.maxWidth = host.width, .maxHeight = host.height}));
-    orExit(shadowed.addLight(ember));
-    map.parameters->light = uint32_t(orExit(shadowed.addLight(spot)));
-    orExit(open.addLight(lamp));
+    auto shadowed = *candelabra::Lighting::create(
+        device, {.framesInFlight = 1, .hostKernels = kernels.hostKernels(map.setLayout)});
+    auto open = *candelabra::Lighting::create(device, {.framesInFlight = 1});
+    auto shadowedView = *shadowed.createView({.maxWidth = host.width, .maxHeight = host.height});
+    auto openView = *open.createView({.maxWidth = host.width, .maxHeight = host.height});
+    shadowed.addLight(ember).value();
+    map.parameters->light = uint32_t(shadowed.addLight(spot).value());
+    open.addLight(lamp).value();
     aim(*map.parameters);
 
     for (int frame = 0; frame < 2; ++frame) {
@@ -90,9 +89,9 @@ static void drawFrames(Host& host, const ShadowMap& map)
         drawWall(&host);
         CndLightingFrame lit = wallFrame(host);
         // Both add to the same image. The second recording begins with a barrier for it.
-        orExit(openView.record(cmd, lit));
+        openView.record(cmd, lit).value();
         lit.hostSet = map.set;
-        orExit(shadowedView.record(cmd, lit));
+        shadowedView.record(cmd, lit).value();
         endFrame(&host);
     }
 }

@@ -257,23 +257,24 @@ static std::array<std::vector<float>, 2> drawFrames(Host& host)
     const StalkBender bender(host, drawnStalk.vertices());
     const Renderer renderer(host);
     auto lighting =
-        orExit(candelabra::Lighting::create(deviceOf(host), {.framesInFlight = 1,
-                                                             .gbufferLayout = CND_GBUFFER_HOST,
-                                                             .gbuffer = description,
-                                                             .shadows = {.points = 64}}));
-    auto view = orExit(lighting.createView({.maxWidth = host.width, .maxHeight = host.height}));
-    orExit(lighting.setLights(lamps(), {0, 0, 0}));
+        *candelabra::Lighting::create(deviceOf(host), {.framesInFlight = 1,
+                                                       .gbufferLayout = CND_GBUFFER_HOST,
+                                                       .gbuffer = description,
+                                                       .shadows = {.points = 64}});
+    auto view = *lighting.createView({.maxWidth = host.width, .maxHeight = host.height});
+    lighting.setLights(lamps(), {0, 0, 0}).value();
     const auto addMesh = [&](const Mesh& mesh) {
-        return orExit(
-            lighting.addOccluderMesh({.positions = &mesh.vertices[0].position.x,
-                                      .stride = sizeof(Vertex),
-                                      .vertexCount = uint32_t(mesh.vertices.size()),
-                                      .indices = mesh.indices.data(),
-                                      .triangleCount = uint32_t(mesh.indices.size() / 3)}));
+        return lighting
+            .addOccluderMesh({.positions = &mesh.vertices[0].position.x,
+                              .stride = sizeof(Vertex),
+                              .vertexCount = uint32_t(mesh.vertices.size()),
+                              .indices = mesh.indices.data(),
+                              .triangleCount = uint32_t(mesh.indices.size() / 3)})
+            .value();
     };
     const CndOccluderMeshId box = addMesh(boxes), stalk = addMesh(straight);
     std::vector<CndOccluderId> ids(objectsAt(0).size());
-    orExit(lighting.addOccluders(occludersOf(objectsAt(0), box, stalk), ids));
+    lighting.addOccluders(occludersOf(objectsAt(0), box, stalk), ids).value();
     const CndDevicePositions bent{
         .mesh = stalk, .buffer = drawnStalk.vertices(), .stride = sizeof(Vertex)};
 
@@ -283,21 +284,21 @@ static std::array<std::vector<float>, 2> drawFrames(Host& host)
         const bool shadows = i < frames;
         const float time = float(std::min(i, frames - 1));
         const std::vector<Object> objects = objectsAt(time);
-        orExit(lighting.updateOccluders(ids, occludersOf(objects, box, stalk)));
+        lighting.updateOccluders(ids, occludersOf(objects, box, stalk)).value();
         const VkCommandBuffer cmd = beginFrame(&host);
         bender.record(cmd, 1.1f * time - 0.8f);
-        orExit(lighting.replaceOccluderPositionsOnDevice({&bent, 1}));
+        lighting.replaceOccluderPositionsOnDevice({&bent, 1}).value();
         renderer.draw(cmd, objects, drawnBox, drawnStalk);
         CndLightingFrame frame = renderer.frame();
         frame.shadowsOff = !shadows;
         frame.countPairs = VK_TRUE; // for the statistics
-        orExit(view.record(cmd, frame));
+        view.record(cmd, frame).value();
         endFrame(&host);
         std::vector<float>& pixels = radiance[shadows ? 0 : 1];
         pixels.resize(size_t(host.width) * host.height * 4);
         readPixels(&host, &renderer.radiance(), storageWrite, pixels.data(),
                    pixels.size() * sizeof(float));
-        const CndLightingStats stats = orExit(view.stats(0)).value();
+        const CndLightingStats stats = view.stats(0).value().value();
         std::printf("of %llu pairs of a pixel and a light in reach, %llu are in penumbra and "
                     "%llu in full shadow\n",
                     (unsigned long long)stats.contributingPairs,

@@ -129,7 +129,7 @@ void resize(Targets& t, const Host& host, candelabra::Lighting& lighting, VkExte
         t.gbuffer.destroy(host);
     t.gbuffer.create(host, size);
     // A view serves every frame size up to its own.
-    t.view = orExit(lighting.createView({.maxWidth = size.width, .maxHeight = size.height}));
+    t.view = *lighting.createView({.maxWidth = size.width, .maxHeight = size.height});
     t.size = size;
 }
 
@@ -182,21 +182,25 @@ void light(const Window::Frame& frame, Targets& targets, candelabra::Exposure& e
                                     .radiance = g.radiance.view,
                                     .specularMethod = CND_SPECULAR_CONIC};
     if (settings.overlay >= 0) {
-        orExit(targets.view.recordOverlay(
-            frame.cmd, surfaces,
-            {.quantity = CndSurfaceQuantity(settings.overlay), .image = g.display.view}));
+        targets.view
+            .recordOverlay(
+                frame.cmd, surfaces,
+                {.quantity = CndSurfaceQuantity(settings.overlay), .image = g.display.view})
+            .value();
         return;
     }
-    orExit(targets.view.record(frame.cmd, surfaces));
+    targets.view.record(frame.cmd, surfaces).value();
     imageBarrier(frame.cmd, &g.radiance, storageInCompute, sampledRead);
-    orExit(exposure.record(frame.cmd, {.frameSlot = frame.slot,
-                                       .width = targets.size.width,
-                                       .height = targets.size.height,
-                                       .radiance = g.radiance.view,
-                                       .display = g.display.view,
-                                       .deltaTime = step.deltaTime,
-                                       .reset = step.reset,
-                                       .settings = candelabra::defaultExposureSettings()}));
+    exposure
+        .record(frame.cmd, {.frameSlot = frame.slot,
+                            .width = targets.size.width,
+                            .height = targets.size.height,
+                            .radiance = g.radiance.view,
+                            .display = g.display.view,
+                            .deltaTime = step.deltaTime,
+                            .reset = step.reset,
+                            .settings = candelabra::defaultExposureSettings()})
+        .value();
 }
 
 } // namespace
@@ -211,11 +215,10 @@ int main(int argc, char** argv)
     Panel panel(window);
 
     const CndDeviceDesc device = deviceOf(host);
-    auto lighting = orExit(candelabra::Lighting::create(device, {.framesInFlight = framesInFlight,
-                                                                 .gbufferLayout = CND_GBUFFER_HOST,
-                                                                 .gbuffer = gbufferDesc}));
-    auto exposure =
-        orExit(candelabra::Exposure::create(device, {.framesInFlight = framesInFlight}));
+    auto lighting = *candelabra::Lighting::create(device, {.framesInFlight = framesInFlight,
+                                                           .gbufferLayout = CND_GBUFFER_HOST,
+                                                           .gbuffer = gbufferDesc});
+    auto exposure = *candelabra::Exposure::create(device, {.framesInFlight = framesInFlight});
     Targets targets;
     std::vector<CndLight> lights;
     double seconds = 0;
@@ -249,7 +252,7 @@ int main(int argc, char** argv)
 
         // Light.
         lightsAt(seconds, settings.lightCount, lights);
-        orExit(lighting.setLights(lights, {0, 0, 0}));
+        lighting.setLights(lights, {0, 0, 0}).value();
         light(*frame, targets, exposure, settings, camera,
               {.deltaTime = float(step), .reset = n == 0});
 

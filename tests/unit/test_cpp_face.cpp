@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests what candelabra.hpp does without a device: ownership, results, arguments passed through.
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -54,6 +56,33 @@ TEST(CppFace, PowerOfALight)
     EXPECT_FALSE(none);
     EXPECT_EQ(none.error().code, CND_ERROR_INVALID_ARGUMENT);
     EXPECT_STRNE(none.error().message, "");
+}
+
+TEST(CppFace, ResultsGiveTheirValue)
+{
+    Result<Owned> result(Owned{});
+    EXPECT_EQ(&*result, &result.value());
+    EXPECT_EQ(result->get(), nullptr);
+    const int number = 3;
+    result = Owned(&number);
+    const Owned taken = *std::move(result); // can only be moved
+    EXPECT_EQ(taken.get(), &number);
+    const Result<int> constant = 5;
+    EXPECT_EQ(*constant, 5);
+    Result<void>().value();
+}
+
+// A host that does not check learns what failed, not only that something did.
+TEST(CppFace, ResultsWithoutAValuePrintTheirError)
+{
+    const CndLight directional{.type = CND_LIGHT_DIRECTIONAL};
+    auto power = luminousPowerOfLight(directional);
+    ASSERT_FALSE(power);
+    const std::string printed = std::string("candelabra: ") + power.error().message;
+    EXPECT_DEATH(power.value(), printed);
+    EXPECT_DEATH(*std::as_const(power), printed);
+    EXPECT_DEATH(static_cast<void>(power->size()), printed);
+    EXPECT_DEATH(checkDevice({}).value(), "candelabra: CndDeviceDesc: .* must not be null");
 }
 
 TEST(CppFace, EveryElementHasAnId)

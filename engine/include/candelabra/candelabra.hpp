@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <optional>
 #include <utility>
@@ -57,7 +58,20 @@ private:
 };
 #endif
 
-// A value of type T, or the error that prevented it.
+namespace detail
+{
+
+// Prints the sentence of an error to stderr and ends the program.
+[[noreturn]] inline void end(const CndError& error) noexcept
+{
+    std::fprintf(stderr, "candelabra: %s\n", error.message);
+    std::abort();
+}
+
+} // namespace detail
+
+// A value of type T, or the error that prevented it. value(), * and -> of an error print its
+// sentence to stderr and abort the program.
 template <typename T>
 class [[nodiscard]] Result
 {
@@ -65,21 +79,37 @@ public:
     Result(T value) : value_(std::move(value)) {}
     Result(const CndError& error) : error_(error) {}
     explicit operator bool() const { return value_.has_value(); }
-    // Aborts the program if there is no value: check first.
-    T& value()
+    T& value() &
     {
-        if (!value_)
-            std::abort();
+        check();
         return *value_;
     }
+    const T& value() const&
+    {
+        check();
+        return *value_;
+    }
+    T&& value() && { return std::move(value()); }
+    T& operator*() & { return value(); }
+    const T& operator*() const& { return value(); }
+    T&& operator*() && { return std::move(*this).value(); }
+    T* operator->() { return &value(); }
+    const T* operator->() const { return &value(); }
     const CndError& error() const { return error_; }
 
 private:
+    void check() const
+    {
+        if (!value_)
+            detail::end(error_);
+    }
+
     std::optional<T> value_;
     CndError error_{};
 };
 
-// Success, or an error.
+// Success, or an error. value() returns nothing: it ends the program as above unless the call has
+// succeeded.
 template <>
 class [[nodiscard]] Result<void>
 {
@@ -87,6 +117,11 @@ public:
     Result() = default;
     Result(const CndError& error) : error_(error) {}
     explicit operator bool() const { return error_.code >= CND_SUCCESS; }
+    void value() const
+    {
+        if (!*this)
+            detail::end(error_);
+    }
     const CndError& error() const { return error_; }
 
 private:
