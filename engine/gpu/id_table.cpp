@@ -8,9 +8,15 @@
 namespace candelabra::gpu
 {
 
-std::string noneHasId(const char* kind, uint64_t id)
+std::string elementIs(const char* array, size_t index, const char* member, uint64_t id)
 {
-    return std::string("no ") + kind + " has the id " + std::to_string(id);
+    return std::string(array) + "[" + std::to_string(index) + "]" + member + " is " +
+           std::to_string(id);
+}
+
+std::string noneHasId(const std::string& element, const char* kind)
+{
+    return element + ", the id of no " + kind;
 }
 
 void IdTable::reserveAll(size_t count)
@@ -27,11 +33,13 @@ void IdTable::reserve(size_t removed, size_t added)
     reserveMore(freeSlots_, removed);
 }
 
-void IdTable::check(const char* call, const char* kind, std::span<const uint64_t> ids)
+void IdTable::check(const char* call, const char* kind, std::span<const uint64_t> ids,
+                    const char* array, const char* member)
 {
-    for (const uint64_t id : ids)
-        if (!has(id))
-            failArgument(std::string(call) + ": " + noneHasId(kind, id));
+    for (size_t i = 0; i < ids.size(); ++i)
+        if (!has(ids[i]))
+            failArgument(std::string(call) + ": " +
+                         noneHasId(elementIs(array, i, member, ids[i]), kind));
     if (std::ranges::adjacent_find(ids, std::greater_equal<>()) == ids.end())
         return; // each is larger than the one before
     seen_.resize(places_.size());
@@ -40,9 +48,11 @@ void IdTable::check(const char* call, const char* kind, std::span<const uint64_t
         seen_[slotOf(ids[different])] = true;
     for (const uint64_t id : ids.first(different))
         seen_[slotOf(id)] = false;
-    if (different < ids.size())
-        failArgument(std::string(call) + ": the id " + std::to_string(ids[different]) +
-                     " is given twice");
+    if (different == ids.size())
+        return;
+    const auto first = std::ranges::find(ids, ids[different]) - ids.begin();
+    failArgument(std::string(call) + ": " + elementIs(array, different, member, ids[different]) +
+                 ", and so is " + array + "[" + std::to_string(first) + "]" + member);
 }
 
 void IdTable::setAll(uint32_t count) noexcept

@@ -21,8 +21,12 @@ void reserveMore(std::vector<T>& v, size_t more)
         v.reserve(std::max(v.size() + more, v.capacity() + v.capacity() / 2));
 }
 
-// The sentence about an id, named as the host passed it, that no `kind` has, such as "light".
-std::string noneHasId(const char* kind, uint64_t id);
+// Names an element of an array that the host passed: its index and the id in it, such as "ids[3] is
+// 17". `member`: what of the element is the id, such as ".mesh"; "": the element itself.
+std::string elementIs(const char* array, size_t index, const char* member, uint64_t id);
+// The sentence about an id that no `kind` has, such as "light". `element`: what elementIs()
+// returns.
+std::string noneHasId(const std::string& element, const char* kind);
 
 class IdTable
 {
@@ -41,8 +45,9 @@ public:
                generations_[slot] == uint32_t(id >> 32);
     }
     // Throws Failure naming `call` and an id that no `kind` has, such as "light of the set", or
-    // that is given twice.
-    void check(const char* call, const char* kind, std::span<const uint64_t> ids);
+    // that is given twice. `array`, `member`: where the host passed the ids (elementIs).
+    void check(const char* call, const char* kind, std::span<const uint64_t> ids,
+               const char* array = "ids", const char* member = "");
 
     // Forgets all ids. Ids 0, 1 ... are in use then, at the places of the same numbers.
     void setAll(uint32_t count) noexcept;

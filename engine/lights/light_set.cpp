@@ -82,7 +82,7 @@ void LightSet::set(const CndLightSet& set)
         if (!std::isfinite(o))
             gpu::failArgument("CndLightSet: origin must be finite");
     const std::span lights(set.lights, set.count);
-    auto [types, boxes] = validateLights(lights);
+    auto [types, boxes] = validateLights("CndLightSet", lights);
     if (device) {
         types[device->type] += device->maxCount;
         InfluenceBox& box = boxes[device->type]; // only the device knows where its lights are
@@ -126,7 +126,7 @@ void LightSet::add(std::span<const CndLight> lights, CndLightId* ids)
         return;
     const uint64_t total = uint64_t(count_) + lights.size();
     requireRoom("cndAddLights", total);
-    auto [types, boxes] = validateLights(lights);
+    auto [types, boxes] = validateLights("cndAddLights", lights);
     const uint32_t polygons = types[CND_LIGHT_POLYGON];
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         types[type] += typeCounts_[type];
@@ -141,7 +141,7 @@ void LightSet::update(std::span<const CndLightId> ids, std::span<const CndLight>
     if (ids.empty())
         return;
     lights_.check("cndUpdateLights", ids);
-    const auto [with, boxes] = validateLights(lights);
+    const auto [with, boxes] = validateLights("cndUpdateLights", lights, ids);
     LightTypeCounts types = typeCounts_;
     for (const CndLightId id : ids)
         --types[lights_.typeOf(id)];

@@ -129,6 +129,15 @@ const char* whyInvalid(const CndLight& light)
     return whyConeInvalid(light);
 }
 
+[[noreturn]] void failLight(const char* call, size_t index, std::span<const CndLightId> ids,
+                            const char* why)
+{
+    std::string light = "lights[" + std::to_string(index) + "]";
+    if (!ids.empty())
+        light += " (id " + std::to_string(ids[index]) + ")";
+    gpu::failArgument(std::string(call) + ": " + light + ": " + why);
+}
+
 glm::vec3 unit(const float (&v)[3])
 {
     const glm::vec3 d = vec(v);
@@ -176,7 +185,8 @@ void pack(const CndLight& light, uint32_t id, gpu::LightRecord& r)
 } // namespace
 
 // The lights are taken in blocks that stay in the processor's nearest cache.
-LightSummary validateLights(std::span<const CndLight> lights)
+LightSummary validateLights(const char* call, std::span<const CndLight> lights,
+                            std::span<const CndLightId> ids)
 {
     constexpr size_t lightsPerBlock = 64;
     LightSummary out;
@@ -184,7 +194,7 @@ LightSummary validateLights(std::span<const CndLight> lights)
         const auto block = lights.subspan(first, std::min(lightsPerBlock, lights.size() - first));
         for (size_t i = 0; i < block.size(); ++i) {
             if (const char* why = whyInvalid(block[i]))
-                gpu::failArgument("lights[" + std::to_string(first + i) + "]: " + why);
+                failLight(call, first + i, ids, why);
             ++out.types[block[i].type];
         }
         widenBoxes(out.boxes, block);

@@ -18,8 +18,10 @@ struct LightSummary {
     LightTypeCounts types{};
     InfluenceBoxes boxes = influenceBoxesOf({});
 };
-// Throws gpu::Failure naming the first light and field outside its documented range.
-LightSummary validateLights(std::span<const CndLight> lights);
+// Throws gpu::Failure naming `call` and the first light and field outside its documented range.
+// `ids`: those of lights that exist already.
+LightSummary validateLights(const char* call, std::span<const CndLight> lights,
+                            std::span<const CndLightId> ids = {});
 
 // Writes one record for each light. The lights must be valid. The id of a polygon's record is the
 // light's, like all others: the caller replaces it by the index of the light's PolygonRecord.

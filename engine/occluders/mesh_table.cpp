@@ -36,7 +36,7 @@ public:
     {
         return {{(*this)[corners.x], (*this)[corners.y], (*this)[corners.z]}};
     }
-    // `name` is that of the first position, such as "mesh 3: positions".
+    // `name` is that of the first position, such as "meshes[3]: positions".
     void check(const std::string& name) const
     {
         for (uint32_t i = 0; i < count_; ++i) {
@@ -64,7 +64,7 @@ void checkStride(const std::string& name, uint32_t stride)
 
 void checkMesh(const OccluderMesh& mesh, size_t index)
 {
-    const std::string name = std::string(addCall) + ": mesh " + std::to_string(index) + ": ";
+    const std::string name = std::string(addCall) + ": meshes[" + std::to_string(index) + "]: ";
     if (!mesh.positions)
         gpu::failArgument(name + "positions is null");
     checkStride(name, mesh.stride);
@@ -269,7 +269,9 @@ void MeshTable::reserveInstanceNodes(uint32_t count)
 void MeshTable::replacePositions(OccluderMeshId id, const float* positions, uint32_t stride)
 {
     const char* const call = "cndReplaceOccluderPositions";
-    check(call, {&id, 1});
+    if (!has(id))
+        gpu::failArgument(std::string(call) + ": " +
+                          gpu::noneHasId("mesh is " + std::to_string(id), "occluder mesh"));
     checkStride(std::string(call) + ": ", stride);
     Mesh& mesh = (*this)[id];
     const Positions from(positions, stride, mesh.vertexCount);
@@ -297,12 +299,12 @@ void MeshTable::check(std::span<const DevicePositions> positions)
     std::vector<OccluderMeshId> ids;
     for (const DevicePositions& p : positions)
         ids.push_back(p.mesh);
-    check(deviceCall, ids);
+    ids_.check(deviceCall, "occluder mesh", ids, "positions", ".mesh");
     const uint64_t room = device_.limits.maxStorageBufferRange;
     for (size_t i = 0; i < positions.size(); ++i) {
         const DevicePositions& p = positions[i];
         const std::string name =
-            std::string(deviceCall) + ": positions " + std::to_string(i) + ": ";
+            std::string(deviceCall) + ": positions[" + std::to_string(i) + "]: ";
         if (!p.buffer)
             gpu::failArgument(name + "buffer is null");
         if (p.offset % sizeof(uint32_t))
@@ -401,11 +403,12 @@ void MeshTable::leaveDevice(OccluderMeshId id) noexcept
 
 void MeshTable::remove(std::span<const OccluderMeshId> ids)
 {
-    check("cndRemoveOccluderMeshes", ids);
+    ids_.check("cndRemoveOccluderMeshes", "occluder mesh", ids);
     for (size_t i = 0; i < ids.size(); ++i)
         if (const uint32_t users = (*this)[ids[i]].users)
-            gpu::failArgument("cndRemoveOccluderMeshes: ids[" + std::to_string(i) +
-                              "] is a mesh that " + std::to_string(users) + " occluders use");
+            gpu::failArgument("cndRemoveOccluderMeshes: " + gpu::elementIs("ids", i, "", ids[i]) +
+                              ", a mesh that has " + std::to_string(users) +
+                              (users == 1 ? " occluder" : " occluders"));
     ids_.reserve(ids.size(), 0);
     for (const OccluderMeshId id : ids) {
         leaveDevice(id);

@@ -113,10 +113,6 @@ private:
     };
     struct Built;
     struct Planned;
-    void check(const char* call, std::span<const OccluderMeshId> ids)
-    {
-        ids_.check(call, "occluder mesh", ids);
-    }
     static Built build(const OccluderMesh& mesh);
     Planned planFor(const DevicePositions& positions) const;
     void reservePlans(std::span<const Planned> planned);

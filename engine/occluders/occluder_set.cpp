@@ -154,14 +154,20 @@ void OccluderSet::removeMeshes(std::span<const OccluderMeshId> ids)
     meshes_.remove(ids);
 }
 
-void OccluderSet::check(const char* call, std::span<const OccluderInstance> instances) const
+void OccluderSet::check(const char* call, std::span<const OccluderInstance> instances,
+                        std::span<const OccluderId> ids) const
 {
     for (size_t i = 0; i < instances.size(); ++i) {
-        const std::string why = meshes_.has(instances[i].mesh)
-                                    ? whyOccluderInvalid(instances[i])
-                                    : gpu::noneHasId("occluder mesh", instances[i].mesh);
+        const OccluderMeshId mesh = instances[i].mesh;
+        if (!meshes_.has(mesh))
+            gpu::failArgument(
+                std::string(call) + ": " +
+                gpu::noneHasId(gpu::elementIs("instances", i, ".mesh", mesh), "occluder mesh"));
+        const std::string why = whyOccluderInvalid(instances[i]);
         if (!why.empty())
-            gpu::failArgument(std::string(call) + ": occluder " + std::to_string(i) + ": " + why);
+            gpu::failArgument(std::string(call) + ": instances[" + std::to_string(i) + "]" +
+                              (ids.empty() ? "" : " (id " + std::to_string(ids[i]) + ")") + ": " +
+                              why);
     }
 }
 
@@ -203,7 +209,7 @@ void OccluderSet::update(std::span<const OccluderId> ids,
     if (ids.empty())
         return;
     instances_.check("cndUpdateOccluders", ids);
-    check("cndUpdateOccluders", instances);
+    check("cndUpdateOccluders", instances, ids);
     reserve(0, 0);
     instances_.update(ids, instances);
     ++number_;

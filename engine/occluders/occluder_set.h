@@ -58,7 +58,8 @@ public:
     void recordRefit(const gpu::Frame& frame, uint64_t recording) noexcept;
 
 private:
-    void check(const char* call, std::span<const OccluderInstance> instances) const;
+    void check(const char* call, std::span<const OccluderInstance> instances,
+               std::span<const OccluderId> ids = {}) const;
     void reserve(size_t removed, size_t added);
     void prepareRefit(size_t moreMeshes = 0);
 

@@ -201,7 +201,7 @@ TEST_F(LightLayers, BeyondTheLastAreNamed)
     light.layers = 1u << CND_LAYER_COUNT;
     const CndLightSet set{sizeof set, 1, &light, {}, nullptr};
     EXPECT_EQ(cndSetLights(own.lighting, &set, &error), CND_ERROR_INVALID_ARGUMENT);
-    EXPECT_STREQ(error.message, "lights[0]: layers has bits beyond CND_LAYER_COUNT");
+    EXPECT_STREQ(error.message, "CndLightSet: lights[0]: layers has bits beyond CND_LAYER_COUNT");
     const CndLightingFrame frame = frameOf(g_, images, {.layers = 1u << CND_LAYER_COUNT});
     expectRefused(own.view, frame, "CndLightingFrame: layers has bits beyond CND_LAYER_COUNT");
 }

@@ -374,21 +374,26 @@ TEST_F(LightUpdates, ThatAreWrongChangeNothing)
                   CND_ERROR_INVALID_ARGUMENT);
         EXPECT_NE(std::string(error.message).find(named), std::string::npos) << error.message;
     };
-    refused("no light of the set has the id 53", {0, 53});
-    refused("no light of the set has the id 18446744073709551615", {UINT64_MAX});
-    refused("no light of the set has the id 7", {7});
-    refused("no light of the set has the id " + std::to_string(added[1]), {added[1]});
-    refused("no light of the set has the id 50", {50}); // perhaps the id of an older set
-    refused("the id 3 is given twice", {3, added[0], 3});
+    refused("ids[1] is 53, the id of no light of the set", {0, 53});
+    refused("ids[0] is 18446744073709551615, the id of no light of the set", {UINT64_MAX});
+    refused("ids[0] is 7, the id of no light of the set", {7});
+    refused("ids[0] is " + std::to_string(added[1]) + ", the id of no light of the set",
+            {added[1]});
+    refused("ids[0] is 50, the id of no light of the set", {50}); // perhaps the id of an older set
+    refused("ids[2] is 3, and so is ids[0]", {3, added[0], 3});
     with[9].radius = -1;
     CndError error{};
     std::vector<CndLightId> ids(10);
     std::iota(ids.begin(), ids.end(), CndLightId(20));
     EXPECT_EQ(cndUpdateLights(lighting_, 10, ids.data(), with.data(), &error),
               CND_ERROR_INVALID_ARGUMENT);
-    EXPECT_NE(std::string(error.message).find("lights[9]: radius"), std::string::npos);
+    EXPECT_NE(std::string(error.message).find("cndUpdateLights: lights[9] (id 29): radius"),
+              std::string::npos)
+        << error.message;
     EXPECT_EQ(cndAddLights(lighting_, 10, with.data(), ids.data(), &error),
               CND_ERROR_INVALID_ARGUMENT);
+    EXPECT_NE(std::string(error.message).find("cndAddLights: lights[9]: radius"), std::string::npos)
+        << error.message;
     EXPECT_EQ(ids[0], 20u); // ids were not written
     EXPECT_EQ(cndUpdateLights(lighting_, 1, ids.data(), nullptr, &error),
               CND_ERROR_INVALID_ARGUMENT);
@@ -401,7 +406,8 @@ TEST_F(LightUpdates, ThatAreWrongChangeNothing)
     EXPECT_LE(copyCounter.copied, 1024u);
     set(lights);
     // An id of the previous set.
-    refused("no light of the set has the id " + std::to_string(added[0]), {added[0]});
+    refused("ids[0] is " + std::to_string(added[0]) + ", the id of no light of the set",
+            {added[0]});
 }
 
 } // namespace

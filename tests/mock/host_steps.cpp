@@ -310,8 +310,10 @@ void expectOccluders(Host& h)
     CndError error{};
     EXPECT_EQ(cndRemoveOccluderMeshes(h.lighting, 1, &h.occluderMesh, &error),
               CND_ERROR_INVALID_ARGUMENT);
-    EXPECT_EQ(std::string(error.message), "cndRemoveOccluderMeshes: ids[0] is a mesh that " +
-                                              std::to_string(h.occluderCount) + " occluders use");
+    EXPECT_EQ(std::string(error.message),
+              "cndRemoveOccluderMeshes: ids[0] is " + std::to_string(h.occluderMesh) +
+                  ", a mesh that has " + std::to_string(h.occluderCount) +
+                  (h.occluderCount == 1 ? " occluder" : " occluders"));
 }
 
 bool reportsSentence(const std::string& step)

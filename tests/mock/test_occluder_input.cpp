@@ -70,7 +70,8 @@ protected:
     void expectUnchanged()
     {
         expectSentence(lighting_.removeOccluderMeshes({&instance_.mesh, 1}).error(),
-                       "cndRemoveOccluderMeshes: ids[0] is a mesh that 1 occluders use");
+                       "cndRemoveOccluderMeshes: ids[0] is " + std::to_string(instance_.mesh) +
+                           ", a mesh that has 1 occluder");
         record();
     }
     void refused(const Result<void>& result, const std::string& sentence,
@@ -84,17 +85,21 @@ protected:
     {
         const CndOccluderMesh meshes[] = {mesh_, mesh};
         CndOccluderMeshId ids[2] = {7, 7};
-        refused(lighting_.addOccluderMeshes(meshes, ids), "cndAddOccluderMeshes: mesh 1: " + why);
+        refused(lighting_.addOccluderMeshes(meshes, ids),
+                "cndAddOccluderMeshes: meshes[1]: " + why);
         EXPECT_TRUE(ids[0] == 7 && ids[1] == 7);
     }
     void refusedInstance(const CndOccluderInstance& instance, const std::string& why)
     {
         const CndOccluderInstance instances[] = {instance_, instance};
         CndOccluderId ids[2] = {7, 7};
-        refused(lighting_.addOccluders(instances, ids), "cndAddOccluders: occluder 1: " + why);
+        const bool isMesh = why.starts_with(".mesh");
+        refused(lighting_.addOccluders(instances, ids),
+                "cndAddOccluders: instances[1]" + (isMesh ? why : ": " + why));
         EXPECT_TRUE(ids[0] == 7 && ids[1] == 7);
         refused(lighting_.updateOccluders({&id_, 1}, {&instance, 1}),
-                "cndUpdateOccluders: occluder 0: " + why);
+                "cndUpdateOccluders: instances[0]" +
+                    (isMesh ? why : " (id " + std::to_string(id_) + "): " + why));
     }
 
     MockVulkan vulkan_;
@@ -140,7 +145,7 @@ TEST_F(OccluderInput, MeshesAreChecked)
     refused(lighting_.replaceOccluderPositions(instance_.mesh, broken),
             replace + "positions[1][1] is nan, must be finite and within 1e15");
     refused(lighting_.replaceOccluderPositions(7, oneTriangle),
-            replace + "no occluder mesh has the id 7");
+            replace + "mesh is 7, the id of no occluder mesh");
     refused(lighting_.replaceOccluderPositions(instance_.mesh, oneTriangle, 4),
             replace + "stride is 4, must be 0 or a multiple of 4 that is at least 12");
 }
@@ -156,24 +161,24 @@ TEST_F(OccluderInput, PositionsOnTheDeviceAreChecked)
     };
     vulkan_.called.clear();
     CndDevicePositions wrong = right;
-    refusedPositions(wrong, "the id 4294967296 is given twice");
+    refusedPositions(wrong, "positions[1].mesh is 4294967296, and so is positions[0].mesh");
     wrong.mesh = 7;
-    refusedPositions(wrong, "no occluder mesh has the id 7");
+    refusedPositions(wrong, "positions[1].mesh is 7, the id of no occluder mesh");
     wrong.mesh = lighting_.addOccluderMesh(mesh_).value();
     wrong.buffer = nullptr;
-    refusedPositions(wrong, "positions 1: buffer is null");
+    refusedPositions(wrong, "positions[1]: buffer is null");
     wrong.buffer = right.buffer;
     wrong.offset = 6;
-    refusedPositions(wrong, "positions 1: offset is 6, must be a multiple of 4");
+    refusedPositions(wrong, "positions[1]: offset is 6, must be a multiple of 4");
     wrong.offset = 0;
     for (const uint32_t stride : {8u, 14u}) {
         wrong.stride = stride;
-        refusedPositions(wrong, "positions 1: stride is " + std::to_string(stride) +
+        refusedPositions(wrong, "positions[1]: stride is " + std::to_string(stride) +
                                     ", must be 0 or a multiple of 4 that is at least 12");
     }
     wrong.stride = 1u << 31;
     refusedPositions(wrong,
-                     "positions 1: they take 4294967308 bytes, too many for the device's "
+                     "positions[1]: they take 4294967308 bytes, too many for the device's "
                      "maxStorageBufferRange, " +
                          std::to_string(vulkan_.limits.maxStorageBufferRange),
                      CND_ERROR_UNSUPPORTED);
@@ -266,7 +271,7 @@ TEST_F(OccluderInput, InstancesAreChecked)
 {
     CndOccluderInstance instance = instance_;
     instance.mesh = 5;
-    refusedInstance(instance, "no occluder mesh has the id 5");
+    refusedInstance(instance, ".mesh is 5, the id of no occluder mesh");
     instance = instance_;
     instance.surfaceError = -1;
     refusedInstance(instance, "surfaceError is -1.000000, must be finite and >= 0");
@@ -296,10 +301,11 @@ TEST_F(OccluderInput, IdsAreChecked)
 {
     const CndOccluderId twice[] = {id_, id_}, unknown[] = {id_, 3};
     const CndOccluderInstance instances[] = {instance_, instance_};
-    const std::string given = "the id 4294967296 is given twice";
+    const std::string given = "ids[1] is 4294967296, and so is ids[0]";
     refused(lighting_.removeOccluders(twice), "cndRemoveOccluders: " + given);
     refused(lighting_.updateOccluders(twice, instances), "cndUpdateOccluders: " + given);
-    refused(lighting_.removeOccluders(unknown), "cndRemoveOccluders: no occluder has the id 3");
+    refused(lighting_.removeOccluders(unknown),
+            "cndRemoveOccluders: ids[1] is 3, the id of no occluder");
     const CndOccluderMeshId twoMeshes[] = {instance_.mesh, instance_.mesh};
     refused(lighting_.removeOccluderMeshes(twoMeshes), "cndRemoveOccluderMeshes: " + given);
     ASSERT_TRUE(lighting_.removeOccluders({&id_, 1}));

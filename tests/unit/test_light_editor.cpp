@@ -77,7 +77,7 @@ TEST(LightEditor, RadiusKeepsPowerAndStaysWithinInfluence)
     for (const float factor : {3.0f, 1e9f, 1e-12f, 40.0f}) {
         scaleLightRadius(scene, editor, factor);
         EXPECT_NEAR(powerOf(light), power, 1e-4 * power) << light.radius;
-        EXPECT_NO_THROW(lighting::validateLights(scene.lights)) << light.radius;
+        EXPECT_NO_THROW(lighting::validateLights("edited", scene.lights)) << light.radius;
     }
 }
 
@@ -88,9 +88,9 @@ TEST(LightEditor, EveryTypeBecomesEveryOtherAndIsValid)
             LightEditor editor;
             Scene scene = sceneWithALight(editor);
             changeType(scene.lights[0], CndLightType(from));
-            EXPECT_NO_THROW(lighting::validateLights(scene.lights)) << from;
+            EXPECT_NO_THROW(lighting::validateLights("edited", scene.lights)) << from;
             changeType(scene.lights[0], CndLightType(to));
-            EXPECT_NO_THROW(lighting::validateLights(scene.lights)) << from << " " << to;
+            EXPECT_NO_THROW(lighting::validateLights("edited", scene.lights)) << from << " " << to;
             EXPECT_GT(scene.lights[0].emission[1], 0) << from << " " << to;
         }
     // A conversion between types that have a luminous power keeps it.
@@ -110,7 +110,7 @@ TEST(LightEditor, CornersKeepPower)
     changeType(scene.lights[0], CND_LIGHT_POLYGON);
     for (uint32_t corners = 3; corners <= CND_MAX_CORNERS; ++corners) {
         changeCorners(scene.lights[0], corners);
-        EXPECT_NO_THROW(lighting::validateLights(scene.lights)) << corners;
+        EXPECT_NO_THROW(lighting::validateLights("edited", scene.lights)) << corners;
         EXPECT_EQ(scene.lights[0].polygon->cornerCount, corners);
         EXPECT_NEAR(powerOf(scene.lights[0]), 1500, 0.1) << corners;
     }

@@ -49,7 +49,7 @@ CndLight lightOf(const CndPolygon* polygon)
 std::string refusal(const CndLight& light)
 {
     try {
-        lighting::validateLights({&light, 1});
+        lighting::validateLights("CndLightSet", {&light, 1});
         return "";
     } catch (const gpu::Failure& failure) {
         return failure.message;
@@ -142,43 +142,44 @@ TEST(PolygonLights, GoodOnesAreAccepted)
 
 TEST(PolygonLights, BadOnesAreRefusedWithOneSentence)
 {
-    EXPECT_EQ(refusal(lightOf(nullptr)), "lights[0]: polygon must not be NULL");
+    EXPECT_EQ(refusal(lightOf(nullptr)), "CndLightSet: lights[0]: polygon must not be NULL");
     for (const uint32_t count : {0u, 2u, 9u, UINT32_MAX}) {
         CndPolygon polygon = *regularPolygon(8);
         polygon.cornerCount = count;
-        EXPECT_EQ(refusal(polygon), "lights[0]: a polygon must have 3 to 8 corners");
+        EXPECT_EQ(refusal(polygon), "CndLightSet: lights[0]: a polygon must have 3 to 8 corners");
     }
     for (const float bad : {1.001f, -2.0f, INFINITY, NAN}) {
         CndPolygon polygon = *regularPolygon(5);
         polygon.corners[3][1] = bad;
-        EXPECT_EQ(refusal(polygon),
-                  "lights[0]: the coordinates of a polygon's corners must be within -1..1");
+        EXPECT_EQ(
+            refusal(polygon),
+            "CndLightSet: lights[0]: the coordinates of a polygon's corners must be within -1..1");
         polygon = *regularPolygon(5);
         polygon.corners[5][0] = bad; // is not used
         EXPECT_EQ(refusal(polygon), "");
     }
     EXPECT_EQ(refusal(CndPolygon{4, {{-1, -1}, {1, -1}, {1, -1.0f + 5e-6f}, {0, 1}}}),
-              "lights[0]: two neighbouring corners of the polygon coincide");
+              "CndLightSet: lights[0]: two neighbouring corners of the polygon coincide");
     EXPECT_EQ(refusal(CndPolygon{3, {{-1, -1}, {0, 0}, {1, 1}}}),
-              "lights[0]: the corners of the polygon enclose no area");
-    EXPECT_EQ(
-        refusal(CndPolygon{3, {{-1, -1}, {0, 1}, {1, -1}}}),
-        "lights[0]: the corners of the polygon must go counterclockwise, from axisU to axisV");
+              "CndLightSet: lights[0]: the corners of the polygon enclose no area");
+    EXPECT_EQ(refusal(CndPolygon{3, {{-1, -1}, {0, 1}, {1, -1}}}),
+              "CndLightSet: lights[0]: the corners of the polygon must go counterclockwise, from "
+              "axisU to axisV");
     EXPECT_EQ(refusal(CndPolygon{4, {{-1, -1}, {1, -1}, {-0.5f, -0.5f}, {-1, 1}}}),
-              "lights[0]: the polygon must be convex");
+              "CndLightSet: lights[0]: the polygon must be convex");
     // The outline of a star turns to the left at every corner.
     CndPolygon star{.cornerCount = 5, .corners = {}};
     for (uint32_t i = 0; i < 5; ++i)
         for (int k = 0; k < 2; ++k)
             star.corners[i][k] = regularPolygon(5)->corners[2 * i % 5][k];
-    EXPECT_EQ(refusal(star), "lights[0]: the polygon must be convex");
+    EXPECT_EQ(refusal(star), "CndLightSet: lights[0]: the polygon must be convex");
     CndLight light = lightOf(regularPolygon(4));
     light.influenceRadius = 2; // the distance of a corner
     EXPECT_EQ(refusal(light),
-              "lights[0]: influenceRadius must be greater than the distance from the "
+              "CndLightSet: lights[0]: influenceRadius must be greater than the distance from the "
               "light's centre to the farthest point of its emitter");
     light.axisV[0] = 0.1f;
-    EXPECT_EQ(refusal(light), "lights[0]: axisU and axisV must be perpendicular");
+    EXPECT_EQ(refusal(light), "CndLightSet: lights[0]: axisU and axisV must be perpendicular");
     float power[3];
     CndError error{};
     light = lightOf(nullptr);

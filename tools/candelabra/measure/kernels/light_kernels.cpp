@@ -53,7 +53,7 @@ const gpu::Spirv& ofFamily(std::span<const gpu::Spirv* const> families,
 
 PreparedLights prepareLights(std::span<const CndLight> lights)
 {
-    lighting::validateLights(lights);
+    lighting::validateLights("light kernels", lights);
     std::vector<gpu::LightRecord> records(lights.size());
     lighting::packLights(lights, records);
     PreparedLights out;
