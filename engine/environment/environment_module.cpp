@@ -221,10 +221,7 @@ void Environment::recordMap(VkCommandBuffer cmd, const CndEnvironmentMap& map)
     if (map.structSize != sizeof map)
         gpu::failArgument("CndEnvironmentMap: structSize is " + std::to_string(map.structSize) +
                           ", this library expects " + std::to_string(sizeof map));
-    for (const uint32_t side : {map.width, map.height})
-        if (side < 1 || side > 16384)
-            gpu::failArgument("CndEnvironmentMap: size " + std::to_string(map.width) + "x" +
-                              std::to_string(map.height) + " is outside 1x1..16384x16384");
+    gpu::requireRect("CndEnvironmentMap", 0, 0, map.width, map.height);
     if (!map.equirectangular)
         gpu::failArgument("CndEnvironmentMap: equirectangular is null");
     sets_.cube.write(0,
@@ -319,10 +316,7 @@ void Environment::validate(const CndEnvironmentFrame& frame) const
     if (frame.frameSlot >= recorded_.size())
         gpu::failArgument("CndEnvironmentFrame: frameSlot is " + std::to_string(frame.frameSlot) +
                           ", framesInFlight is " + std::to_string(recorded_.size()));
-    for (const uint32_t side : {frame.width, frame.height})
-        if (side < 1 || side > 16384)
-            gpu::failArgument("CndEnvironmentFrame: size " + std::to_string(frame.width) + "x" +
-                              std::to_string(frame.height) + " is outside 1x1..16384x16384");
+    gpu::requireRect("CndEnvironmentFrame", frame.x, frame.y, frame.width, frame.height);
     gbuffer_.requireImages("CndEnvironmentFrame", frame);
     if (!frame.radiance)
         gpu::failArgument("CndEnvironmentFrame: radiance is null");

@@ -110,10 +110,7 @@ void Exposure::validate(const CndExposureFrame& frame) const
     if (frame.frameSlot >= slots_.size())
         gpu::failArgument("CndExposureFrame: frameSlot is " + std::to_string(frame.frameSlot) +
                           ", framesInFlight is " + std::to_string(slots_.size()));
-    for (const uint32_t side : {frame.width, frame.height})
-        if (side < 1 || side > 16384)
-            gpu::failArgument("CndExposureFrame: size " + std::to_string(frame.width) + "x" +
-                              std::to_string(frame.height) + " is outside 1x1..16384x16384");
+    gpu::requireRect("CndExposureFrame", frame.x, frame.y, frame.width, frame.height);
     if (!frame.radiance)
         gpu::failArgument("CndExposureFrame: radiance is null");
     if (!gpu::canBeRead(frame.radianceImageLayout))
@@ -174,10 +171,12 @@ void Exposure::record(VkCommandBuffer cmd, const CndExposureFrame& frame)
 
 void Exposure::recordHistogram(const gpu::Frame& f, const CndExposureFrame& frame) const noexcept
 {
-    histogram_[frame.settings.metering].dispatch(
-        f, sets_.histogram.set(f.slot),
-        {.size = {frame.width, frame.height}, .maskSize = maskSize_},
-        divideUp(frame.width, gpu::HISTOGRAM_COLUMNS), divideUp(frame.height, gpu::HISTOGRAM_ROWS));
+    histogram_[frame.settings.metering].dispatch(f, sets_.histogram.set(f.slot),
+                                                 {.size = {frame.width, frame.height},
+                                                  .maskSize = maskSize_,
+                                                  .firstTexel = {frame.x, frame.y}},
+                                                 divideUp(frame.width, gpu::HISTOGRAM_COLUMNS),
+                                                 divideUp(frame.height, gpu::HISTOGRAM_ROWS));
 }
 
 void Exposure::recordAdaptation(const gpu::Frame& f, const CndExposureFrame& frame) const noexcept
@@ -192,7 +191,8 @@ void Exposure::recordToneMap(const gpu::Frame& f, const CndExposureFrame& frame)
     toneMap_[frame.settings.toneMap].dispatch(f, sets_.toneMap.set(f.slot),
                                               {.size = {frame.width, frame.height},
                                                .dither = frame.settings.dither ? 1u : 0u,
-                                               .ditherSeed = frame.ditherSeed},
+                                               .ditherSeed = frame.ditherSeed,
+                                               .firstTexel = {frame.x, frame.y}},
                                               divideUp(frame.width, gpu::TONE_MAP_GROUP),
                                               divideUp(frame.height, gpu::TONE_MAP_ROWS));
 }

@@ -71,6 +71,21 @@ void failUnsupported(std::string message)
     throw Failure{CND_ERROR_UNSUPPORTED, VK_SUCCESS, std::move(message)};
 }
 
+void requireRect(const char* what, uint32_t x, uint32_t y, uint32_t width, uint32_t height,
+                 VkExtent2D largest)
+{
+    const auto sides = [](uint32_t w, uint32_t h) {
+        return std::to_string(w) + "x" + std::to_string(h);
+    };
+    if (!width || !height || width > largest.width || height > largest.height)
+        failArgument(std::string(what) + ": size " + sides(width, height) + " is outside 1x1.." +
+                     sides(largest.width, largest.height));
+    if (x > largestSide - width || y > largestSide - height)
+        failArgument(std::string(what) + ": " + sides(width, height) + " pixels from (" +
+                     std::to_string(x) + ", " + std::to_string(y) + ") on end beyond " +
+                     sides(largestSide, largestSide));
+}
+
 CndResult report(CndError* error, CndResult code, VkResult vkResult, const char* message) noexcept
 {
     if (error) {

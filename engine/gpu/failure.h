@@ -41,6 +41,14 @@ void check(VkResult result, std::string_view action, std::string_view name = {})
 void requireNotNull(const char* function, std::initializer_list<const void*> pointers);
 [[noreturn]] void failUnsupported(std::string message);
 
+// The largest images that the modules take, in pixels along each side.
+constexpr uint32_t largestSide = 16384;
+
+// Throws a Failure if a rectangle of images has no pixel, is larger than `largest`, or ends beyond
+// the largest images. `what`: the type that describes it.
+void requireRect(const char* what, uint32_t x, uint32_t y, uint32_t width, uint32_t height,
+                 VkExtent2D largest = {largestSide, largestSide});
+
 // Fills in `error`, if it is not null, and returns `code`.
 CndResult report(CndError* error, CndResult code, VkResult vkResult, const char* message) noexcept;
 

@@ -127,7 +127,8 @@ void Influence::writeBindings(uint32_t slot, const Inputs& in) const
                       Binding::of(CUT_LIGHTS_COUNTERS, in.counters)});
 }
 
-uint32_t Influence::recordBegin(const gpu::Frame& f, const CndLightingFrame& frame) noexcept
+uint32_t Influence::recordBegin(const gpu::Frame& f, const CndLightingFrame& frame,
+                                const gpu::FrameParams& params) noexcept
 {
     const glm::uvec2 size{frame.width, frame.height};
     const bool begins = maxError_ != frame.influence.maxError;
@@ -143,6 +144,8 @@ uint32_t Influence::recordBegin(const gpu::Frame& f, const CndLightingFrame& fra
     frame_.clearDepth = frame.clearDepth;
     frame_.exposure = frame.influence.exposure;
     frame_.maxError = sampleShare * maxError_;
+    frame_.firstTexel = params.firstTexel;
+    frame_.firstDepthTexel = params.firstDepthTexel;
     struct {
         gpu::InfluenceFrame frame;
         uint32_t allowed;

@@ -49,7 +49,8 @@ public:
     // These functions are called in this order, and each ends with a barrier. recordBegin returns
     // the number of rounds. Every round takes one call of recordRound, one of recordMeasure per
     // light type and batch of lights, and one of recordChoice. recordCut follows the last round.
-    uint32_t recordBegin(const gpu::Frame& f, const CndLightingFrame& frame) noexcept;
+    uint32_t recordBegin(const gpu::Frame& f, const CndLightingFrame& frame,
+                         const gpu::FrameParams& params) noexcept;
     void recordRound(const gpu::Frame& f) const noexcept;
     void recordMeasure(const gpu::Frame& f, const MeasureKernel& kernel,
                        gpu::MeasureInfluenceParams params) const noexcept;

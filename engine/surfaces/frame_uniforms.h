@@ -38,7 +38,9 @@ gpu::FrameParams frameParams(const Frame& frame, const GBufferSource& gbuffer,
                 uint32_t(frame.lobes) | (frame.energyCompensation ? gpu::COMPENSATE_ENERGY : 0),
             .largestRadiance = largestRadiance(radianceFormat),
             .constantRoughness = desc.constantRoughness,
-            .constantMetalness = desc.constantMetalness};
+            .constantMetalness = desc.constantMetalness,
+            .firstTexel = {frame.x, frame.y},
+            .firstDepthTexel = {frame.x, frame.y}};
 }
 
 // A uniform buffer with room for the parameters of one frame per frame slot.

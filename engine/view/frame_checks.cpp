@@ -40,11 +40,8 @@ void checkSurfaces(const Module& module, const CndLightingViewDesc& view,
     if (frame.frameSlot >= module.desc.framesInFlight)
         gpu::failArgument("CndLightingFrame: frameSlot is " + std::to_string(frame.frameSlot) +
                           ", framesInFlight is " + std::to_string(module.desc.framesInFlight));
-    if (!frame.width || !frame.height || frame.width > view.maxWidth ||
-        frame.height > view.maxHeight)
-        gpu::failArgument("CndLightingFrame: size " + std::to_string(frame.width) + "x" +
-                          std::to_string(frame.height) + " is outside 1x1.." +
-                          std::to_string(view.maxWidth) + "x" + std::to_string(view.maxHeight));
+    gpu::requireRect("CndLightingFrame", frame.x, frame.y, frame.width, frame.height,
+                     {view.maxWidth, view.maxHeight});
     module.gbuffer.requireImages("CndLightingFrame", frame);
     module.hostKernels.requireSet("CndLightingFrame", frame.hostSet);
     surfaces::checkCamera(frame.camera);

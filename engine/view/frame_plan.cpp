@@ -35,6 +35,8 @@ gpu::FrameParams frameParams(const Module& module, const CndLightingFrame& frame
     gpu::FrameParams out = surfaces::frameParams(frame, module.gbuffer, module.desc.radianceFormat);
     out.sampleCount = frame.sampleCount ? frame.sampleCount : defaultSampleCount;
     out.sampleSeed = frame.sampleSeed;
+    if (!module.gbuffer.depthIsProjected())
+        out.firstDepthTexel = {};
     return out;
 }
 

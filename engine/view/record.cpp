@@ -183,7 +183,7 @@ void View::recordInfluence(const gpu::Frame& f, const FramePlan& p) noexcept
     const gpu::UntimedFrame untimed(f); // the rounds share one row of times
     const gpu::Frame& u = untimed;
     const char* measured = nullptr;
-    const uint32_t rounds = influence_->recordBegin(u, p.frame);
+    const uint32_t rounds = influence_->recordBegin(u, p.frame, p.params);
     for (uint32_t round = 0; round < rounds; ++round) {
         influence_->recordRound(u);
         for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {

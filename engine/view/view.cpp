@@ -17,7 +17,6 @@ namespace
 
 constexpr VkDeviceSize defaultListBudget = 64u << 20;
 constexpr VkDeviceSize defaultShadowBudget = 128u << 20;
-constexpr uint32_t maxSide = 16384; // pixels; largest width and height of a view
 
 constexpr VkBufferUsageFlags storageUse = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
 
@@ -60,7 +59,7 @@ CndLightingViewDesc checkedDesc(const gpu::Device& device, CndLightingViewDesc d
         gpu::failArgument("CndLightingViewDesc: structSize is " + std::to_string(desc.structSize) +
                           ", this library expects " + std::to_string(sizeof desc));
     for (const uint32_t side : {desc.maxWidth, desc.maxHeight})
-        if (side < 1 || side > maxSide)
+        if (side < 1 || side > gpu::largestSide)
             gpu::failArgument("CndLightingViewDesc: maxWidth and maxHeight must be 1..16384, are " +
                               std::to_string(desc.maxWidth) + " and " +
                               std::to_string(desc.maxHeight));

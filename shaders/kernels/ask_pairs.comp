@@ -121,7 +121,8 @@ void findBounds(uint tile, uint cluster)
     barrier();
     const uvec2 pixel = firstPixelOfTile(tile, frameParams.size.x) + pixelOfLane(lane);
     const bool inside = all(lessThan(pixel, frameParams.size));
-    const float depth = inside ? texelFetch(depthImage, ivec2(pixel), 0).x : frameParams.clearDepth;
+    const float depth =
+        inside ? texelFetch(depthImage, depthTexelOf(pixel), 0).x : frameParams.clearDepth;
     const bool isSample = depth != frameParams.clearDepth && clusterOf(tile, depth) == cluster;
     const vec3 position =
         viewPosition(frameParams.projection, pixel, frameParams.invImageSize, depth);

@@ -40,13 +40,13 @@ void main()
     const uvec2 pixel = influencePixel(data.frame, sampleIndex, turn);
     if (any(greaterThanEqual(pixel, data.frame.size)))
         return;
-    if (texelFetch(depthImage, ivec2(pixel), 0).x == data.frame.clearDepth)
+    if (texelFetch(depthImage, ivec2(pixel + data.frame.firstDepthTexel), 0).x == data.frame.clearDepth)
         return;
     const uint firstSlot = sampleIndex * INFLUENCE_SLOTS;
     vec3 placed = vec3(0.0);
     for (uint bin = 0u; bin < INFLUENCE_BINS; ++bin)
         placed += sums[firstSlot + bin];
-    const vec3 all = imageLoad(radianceImage, ivec2(pixel)).rgb +
+    const vec3 all = imageLoad(radianceImage, ivec2(pixel + data.frame.firstTexel)).rgb +
                      sums[firstSlot + INFLUENCE_DISTANT] + placed;
     const vec3 uncut = shown(all);
     // Sums of the light in the bins from the cut upwards, weighted by x^2 and by x^4.

@@ -53,7 +53,8 @@ void main()
     uint tile;
     uvec2 pixel;
     const bool inside = takeTile(tile, pixel);
-    const float depth = inside ? texelFetch(depthImage, ivec2(pixel), 0).x : frameParams.clearDepth;
+    const float depth =
+        inside ? texelFetch(depthImage, depthTexelOf(pixel), 0).x : frameParams.clearDepth;
     const bool surface = inside && depth != frameParams.clearDepth;
     uint listed = 0u, evaluated = 0u, influenced = 0u, contributing = 0u;
     Block block = surface ? beginWalk(params.batch, tile, depth) : Block(0u, 0u, 0u);
@@ -75,8 +76,9 @@ void main()
         block = nextBlock(params.batch, block);
     }
     if (surface && params.writesImage != 0u) {
-        const vec4 before = imageLoad(pairImage, ivec2(pixel));
-        imageStore(pairImage, ivec2(pixel),
+        const ivec2 texel = texelOf(pixel);
+        const vec4 before = imageLoad(pairImage, texel);
+        imageStore(pairImage, texel,
                    vec4(before.xyz + vec3(listed, evaluated, contributing),
                         max(before.w, float(classOf(tile, depth)))));
     }

@@ -56,7 +56,8 @@ void main()
     uint tile;
     uvec2 pixel;
     const bool inside = takeTile(tile, pixel);
-    const float depth = inside ? texelFetch(depthImage, ivec2(pixel), 0).x : frameParams.clearDepth;
+    const float depth =
+        inside ? texelFetch(depthImage, depthTexelOf(pixel), 0).x : frameParams.clearDepth;
     Counts counts = Counts(0u, 0u, 0u);
     if (depth != frameParams.clearDepth) {
         uint page = 0u;
@@ -71,8 +72,8 @@ void main()
             page = pageAfter(header);
         }
         if (params.writesImage != 0u)
-            imageStore(shadowImage, ivec2(pixel),
-                       imageLoad(shadowImage, ivec2(pixel)) +
+            imageStore(shadowImage, texelOf(pixel),
+                       imageLoad(shadowImage, texelOf(pixel)) +
                            vec4(counts.asked, counts.partly, counts.dark, 0.0));
     }
     COUNT(counters.asked, counts.asked)

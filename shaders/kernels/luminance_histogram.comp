@@ -64,7 +64,7 @@ struct Entry {
 
 Entry entryOf(uvec2 pixel)
 {
-    const float y = luminance(texelFetch(radianceImage, ivec2(pixel), 0).rgb);
+    const float y = luminance(texelFetch(radianceImage, ivec2(pixel + params.firstTexel), 0).rgb);
     const uint bits = floatBitsToUint(y);
     // Tests the bits, because isnan() may be compiled to false.
     if ((bits & 0x7FFFFFFFu) > 0x7F800000u)

@@ -98,7 +98,7 @@ void main()
     const uvec2 pixel = influencePixel(data.frame, sampleIndex, turn);
     const bool inside = exists && all(lessThan(pixel, frameParams.size));
     const float depth =
-        inside ? texelFetch(depthImage, ivec2(pixel), 0).x : frameParams.clearDepth;
+        inside ? texelFetch(depthImage, depthTexelOf(pixel), 0).x : frameParams.clearDepth;
     Receiver r;
     if (depth != frameParams.clearDepth) {
         r = makeReceiver(readShadingPoint(pixel, depth), frameParams.sampleCount, pixelSeed(pixel));

@@ -87,7 +87,8 @@ void main()
         pixel += firstPixelOfTile(ask.tile, frameParams.size.x);
     }
     const bool inside = all(lessThan(pixel, frameParams.size));
-    const float depth = inside ? texelFetch(depthImage, ivec2(pixel), 0).x : frameParams.clearDepth;
+    const float depth =
+        inside ? texelFetch(depthImage, depthTexelOf(pixel), 0).x : frameParams.clearDepth;
     bool asks = depth != frameParams.clearDepth;
     if (!ofBatch)
         asks = asks && clusterOf(ask.tile, depth) == ask.cluster;

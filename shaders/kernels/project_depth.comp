@@ -17,9 +17,9 @@ layout(binding = PROJECT_DEPTH_OUTPUT, r32f) uniform writeonly image2D depthImag
 
 void main()
 {
-    const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(gl_GlobalInvocationID.xy, frameParams.size)))
+    const uvec2 pixel = gl_GlobalInvocationID.xy;
+    if (any(greaterThanEqual(pixel, frameParams.size)))
         return;
-    const float depth = visibleDepth(params.depth, texelFetch(storedImage, pixel, 0));
-    imageStore(depthImage, pixel, vec4(depth));
+    const float depth = visibleDepth(params.depth, texelFetch(storedImage, texelOf(pixel), 0));
+    imageStore(depthImage, ivec2(pixel), vec4(depth));
 }

@@ -47,7 +47,7 @@ void main()
         params.first + TILE_SIZE * gl_WorkGroupID.xy + pixelOfLane(gl_LocalInvocationIndex);
     if (any(greaterThanEqual(pixel, params.end)))
         return;
-    const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
+    const float depth = texelFetch(depthImage, depthTexelOf(pixel), 0).x;
     if (depth == frameParams.clearDepth)
         return;
     const Receiver r =
@@ -56,5 +56,5 @@ void main()
     Sums sums = noLight();
     for (uint first = 0u; first < params.batch.count; first += WALK_BLOCK)
         shadeBlock(sums, r, first, min(WALK_BLOCK, params.batch.count - first), false);
-    addRadiance(ivec2(pixel), total(sums));
+    addRadiance(pixel, total(sums));
 }

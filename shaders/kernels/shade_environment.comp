@@ -60,16 +60,17 @@ void main()
     const uvec2 pixel = gl_GlobalInvocationID.xy;
     if (any(greaterThanEqual(pixel, frameParams.size)))
         return;
-    const float depth = visibleDepth(params.depth, texelFetch(depthImage, ivec2(pixel), 0));
+    const float depth = visibleDepth(params.depth, texelFetch(depthImage, depthTexelOf(pixel), 0));
     if (depth == frameParams.clearDepth) {
         if (params.showsBackground == 0u)
             return;
         const vec3 seen = params.scale * background(pixel);
-        storeRadiance(ivec2(pixel), vec4(imageLoad(radianceImage, ivec2(pixel)).rgb + seen, 1.0));
+        const ivec2 texel = texelOf(pixel);
+        storeRadiance(texel, vec4(imageLoad(radianceImage, texel).rgb + seen, 1.0));
         return;
     }
     const vec3 position = viewPosition(frameParams.projection, pixel, frameParams.invImageSize, depth);
-    const vec3 light = shade(makeShadingPoint(readSurface(ivec2(pixel)), position,
+    const vec3 light = shade(makeShadingPoint(readSurface(pixel), position,
                                               towardsEye(frameParams.projection, position)));
-    addRadiance(ivec2(pixel), params.scale * light);
+    addRadiance(pixel, params.scale * light);
 }

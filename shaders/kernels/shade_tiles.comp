@@ -41,7 +41,7 @@ void shade(uint tile, uvec2 pixel, float depth)
         shadeBlock(sums, r, block.first, block.count, true);
         block = nextBlock(params.batch, block);
     } while (block.count != 0u);
-    addRadiance(ivec2(packedPixel & 0xFFFFu, packedPixel >> 16), total(sums));
+    addRadiance(uvec2(packedPixel & 0xFFFFu, packedPixel >> 16), total(sums));
 }
 
 void main()
@@ -53,7 +53,7 @@ void main()
 #ifdef SHADOWS
     walkedTile = tile;
 #endif
-    const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
+    const float depth = texelFetch(depthImage, depthTexelOf(pixel), 0).x;
     if (depth != frameParams.clearDepth)
         shade(tile, pixel, depth);
 }

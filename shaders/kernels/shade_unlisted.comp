@@ -54,7 +54,7 @@ void main()
     uvec2 pixel;
     if (!takeTile(tile, pixel))
         return;
-    const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
+    const float depth = texelFetch(depthImage, depthTexelOf(pixel), 0).x;
     if (depth == frameParams.clearDepth)
         return;
     if (lists[clusterOf(tile, depth)] != params.listHead)
@@ -96,5 +96,5 @@ void main()
     if (unfinishedPairs != 0u)
         atomicAdd(shadowCounters.unfinished, unfinishedPairs);
 #endif
-    addRadiance(ivec2(packedPixel & 0xFFFFu, packedPixel >> 16), total(sums));
+    addRadiance(uvec2(packedPixel & 0xFFFFu, packedPixel >> 16), total(sums));
 }

@@ -69,11 +69,11 @@ vec3 faults(Surface s, HostTexels t, vec3 position)
 // Returns a quantity at a pixel as a display colour.
 vec3 quantityAt(uint quantity, uvec2 pixel)
 {
-    const vec4 texel = texelFetch(depthImage, ivec2(pixel), 0);
+    const vec4 texel = texelFetch(depthImage, texelOf(pixel), 0);
     if (!storesSurface(params.depth, texel))
         return vec3(0.0);
     const float depth = projectedDepth(params.depth, texel);
-    const Surface s = readSurface(ivec2(pixel));
+    const Surface s = readSurface(pixel);
     const vec3 position = viewPosition(frameParams.projection, pixel, frameParams.invImageSize, depth);
     switch (quantity) {
     case SURFACE_NORMAL:
@@ -89,7 +89,7 @@ vec3 quantityAt(uint quantity, uvec2 pixel)
         return abs(fract(world / SURFACE_PERIOD) * 2.0 - 1.0);
     }
     default:
-        return faults(s, readHostTexels(ivec2(pixel)), position);
+        return faults(s, readHostTexels(texelOf(pixel)), position);
     }
 }
 
@@ -107,5 +107,5 @@ void main()
         quantity = SURFACE_NORMAL + panel.y * SURFACE_COLUMNS + panel.x;
         pixel = min((at - first) * panels, frameParams.size - 1u);
     }
-    imageStore(overlayImage, ivec2(at), vec4(quantityAt(quantity, pixel), 1.0));
+    imageStore(overlayImage, texelOf(at), vec4(quantityAt(quantity, pixel), 1.0));
 }

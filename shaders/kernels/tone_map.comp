@@ -30,12 +30,13 @@ void main()
     const uint dither = params.dither, seed = params.ditherSeed;
     const float last = float(lastStep);
     do {
-        const vec3 radiance = texelFetch(radianceImage, ivec2(pixel), 0).rgb;
+        const ivec2 texel = ivec2(pixel + params.firstTexel);
+        const vec3 radiance = texelFetch(radianceImage, texel, 0).rgb;
         const vec3 encoded = encodeSrgb(toneMap(curve, expose(radiance, exposure)));
         const vec3 steps =
             dither != 0u ? quantize(encoded, last, ditherNoise(uvec3(pixel, seed)))
                          : quantize(encoded, last);
-        imageStore(displayImage, ivec2(pixel), vec4(steps / last, 1.0));
+        imageStore(displayImage, texel, vec4(steps / last, 1.0));
         ++pixel.y;
     } while (pixel.y < end);
 }

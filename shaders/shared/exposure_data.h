@@ -64,8 +64,9 @@ const uint HISTOGRAM_DATA = 2u;
 struct LuminanceHistogramParams {
     uvec2 size;
     uvec2 maskSize;
+    uvec2 firstTexel; // texel of the radiance image at which the frame begins
 };
-GPU_SIZE(LuminanceHistogramParams, 16)
+GPU_SIZE(LuminanceHistogramParams, 24)
 
 // --- adapt_exposure: one group, one lane per bin
 const uint ADAPT_DATA = 0u;
@@ -94,8 +95,9 @@ struct ToneMapParams {
     uvec2 size;
     uint dither; // 0 or 1
     uint ditherSeed;
+    uvec2 firstTexel; // texel of both images at which the frame begins
 };
-GPU_SIZE(ToneMapParams, 16)
+GPU_SIZE(ToneMapParams, 24)
 
 const uint TONEMAP_NONE = 0u; // CndToneMap
 const uint TONEMAP_REINHARD = 1u;

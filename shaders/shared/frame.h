@@ -28,7 +28,7 @@ const uint COMPENSATE_ENERGY = 256u; // bit of FrameParams::lobes
 struct FrameParams {
     mat3 viewFromWorld; // rotation
     Projection projection;
-    uvec2 size;         // size of the image in pixels
+    uvec2 size;         // size of the frame in pixels
     vec2 invImageSize;  // 1 / size; divided on the CPU, because kernels may differ in the last bit
                         //   of a division
     float clearDepth;   // depth of pixels without a surface
@@ -41,8 +41,11 @@ struct FrameParams {
     // Where a layout of the host has no such channel.
     float constantRoughness; // perceptual
     float constantMetalness;
+    // The frame is a rectangle inside the host's images, which begins at this texel.
+    uvec2 firstTexel;
+    uvec2 firstDepthTexel; // the same for the depth image; 0 if project_depth has written it
 };
-GPU_SIZE(FrameParams, 140)
+GPU_SIZE(FrameParams, 156)
 
 GPU_END
 

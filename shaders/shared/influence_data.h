@@ -40,10 +40,11 @@ struct InfluenceFrame {
     uint previous; // index of the previous frame's state; this frame has the other one
     uint toneMap;  // TONEMAP_*
     float clearDepth;
-    float exposure; // > 0
-    float maxError; // largest change of a display value, 0..1
+    float exposure;                    // > 0
+    float maxError;                    // largest change of a display value, 0..1
+    uvec2 firstTexel, firstDepthTexel; // those of FrameParams
 };
-GPU_SIZE(InfluenceFrame, 48)
+GPU_SIZE(InfluenceFrame, 64)
 
 struct InfluenceState {
     uint owner;
@@ -62,7 +63,7 @@ struct InfluenceData {
     uint allowed;
     InfluenceState states[2];
 };
-GPU_SIZE(InfluenceData, 116)
+GPU_SIZE(InfluenceData, 132)
 
 // --- measure_influence: lights of one type. The kernel evaluates lights as shade_brute does and
 // has the same bindings except RADIANCE_IMAGE. Several lanes share one sample: each takes some of

@@ -3,7 +3,9 @@
 #include "gpu/exposure_harness.h"
 #include "harness/constants.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <functional>
 #include <string>
 
@@ -221,6 +223,55 @@ TEST_F(ExposureTest, middleGreyScalesTheExposure)
     }
 }
 
+// A rectangle of larger images is metered, weighted and dithered as images of its own are.
+TEST_F(ExposureTest, aRectangleHasTheBitsOfAWholeImage)
+{
+    constexpr uint32_t width = 64, height = 48, x0 = 19, y0 = 13;
+    const Picture own = colours(width, height);
+    Picture atlas = flatPicture(101, 75, 1e6f);
+    for (uint32_t y = 0; y < height; ++y)
+        std::copy_n(own.rgba.begin() + y * width * 4, width * 4,
+                    atlas.rgba.begin() + ((y0 + y) * atlas.width + x0) * 4);
+    CndExposureSettings settings = plainSettings();
+    settings.metering = CND_METERING_CENTRE_WEIGHTED;
+    settings.dither = VK_TRUE;
+    const std::vector<uint8_t> expected = display(own, settings, 5);
+    const CndExposureStats alone = stats(0);
+
+    const gpu::Image radiance = toDevice(atlas), target = createDisplay(atlas.width, atlas.height);
+    CndExposureFrame frame = frameOf(radiance, settings);
+    frame.x = x0;
+    frame.y = y0;
+    frame.width = width;
+    frame.height = height;
+    frame.display = target.view.get();
+    frame.ditherSeed = 5;
+    const CndExposureStats part = run(frame);
+    EXPECT_EQ(part.exposure, alone.exposure);
+    EXPECT_TRUE(std::ranges::equal(part.histogram, alone.histogram));
+    const std::vector<std::byte> shown =
+        readImage(target, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_GENERAL, 4);
+    for (uint32_t y = 0; y < height; ++y)
+        EXPECT_EQ(std::memcmp(&shown[((y0 + y) * atlas.width + x0) * 4], &expected[y * width * 4],
+                              width * 4),
+                  0)
+            << "row " << y;
+}
+
+// So two views with images of their own can share the exposure that is metered from one of them.
+TEST_F(ExposureTest, noTimeKeepsTheExposure)
+{
+    const gpu::Image bright = toDevice(flatPicture(8, 8, 500)),
+                     dark = toDevice(flatPicture(4, 4, 0.1f));
+    const float first = run(frameOf(bright, plainSettings())).exposure;
+    CndExposureFrame second = frameOf(dark, plainSettings());
+    second.reset = VK_FALSE;
+    second.deltaTime = 0;
+    EXPECT_NEAR(run(second).exposure / first, 1, 1e-5);
+    second.deltaTime = 1;
+    EXPECT_GT(run(second).exposure / first, 1.5f);
+}
+
 TEST_F(ExposureTest, badArgumentsAreRefusedWithASentence)
 {
     const gpu::Image radiance = toDevice(flatPicture(4, 4, 1));
@@ -233,6 +284,7 @@ TEST_F(ExposureTest, badArgumentsAreRefusedWithASentence)
         {"frameSlot", [](CndExposureFrame& f) { f.frameSlot = slotCount; }},
         {"size 0x4", [](CndExposureFrame& f) { f.width = 0; }},
         {"size 4x16385", [](CndExposureFrame& f) { f.height = 16385; }},
+        {"4x4 pixels from (0, 16381) on", [](CndExposureFrame& f) { f.y = 16381; }},
         {"radiance", [](CndExposureFrame& f) { f.radiance = VK_NULL_HANDLE; }},
         {"deltaTime", [](CndExposureFrame& f) { f.deltaTime = -1; }},
         {"deltaTime", [](CndExposureFrame& f) { f.deltaTime = nan; }},

@@ -137,6 +137,7 @@ FOLDERS = [
     ("samples/embed_render_pass", ["samples/common", "wall_frag.h", "wall_vert.h"]),
     ("samples/embed_shadow_map", ["samples/common", "bar_vert.h"]),
     ("samples/embed_shadows", ["samples/common", "box_frag.h", "box_vert.h", "stalk_comp.h"]),
+    ("samples/embed_split_screen", ["samples/common"]),
     ("samples/embed_window", ["samples/common", "boxes.frag.inc", "boxes.vert.inc"]),
 
     # Tests may include everything, and nothing includes tests.

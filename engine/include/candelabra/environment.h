@@ -51,6 +51,7 @@ typedef struct CndEnvironmentMap {
 typedef struct CndEnvironmentFrame {
     uint32_t structSize;
     uint32_t frameSlot; // 0..framesInFlight-1; the GPU must have finished the slot's previous frame
+    uint32_t x, y;      // as CndLightingFrame::x and y
     uint32_t width, height; // pixels, 1..16384
     CndCamera camera;
     // The value of pixels without a surface. With CND_DEPTH_PROJECTED it is 0 with reversed depth,

@@ -106,6 +106,10 @@ CND_API float cndExposureFromEv100(float ev100, float middleGrey);
 typedef struct CndExposureFrame {
     uint32_t structSize;
     uint32_t frameSlot; // 0..framesInFlight-1; the GPU must have finished the slot's previous frame
+    // The frame is a rectangle of its images: x and y are its top left pixel, for example that of a
+    // half of a split screen or of a tile of an atlas. x + width and y + height are at most 16384
+    // and inside every image, which the module cannot check.
+    uint32_t x, y;
     uint32_t width, height; // pixels, 1..16384; may change between frames, the history is kept
     VkImageView radiance;
     // Layout of radiance: SHADER_READ_ONLY_OPTIMAL (VK_IMAGE_LAYOUT_UNDEFINED, 0, means this),

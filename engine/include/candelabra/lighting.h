@@ -219,6 +219,12 @@ typedef struct CndLightingViewDesc {
 typedef struct CndLightingFrame {
     uint32_t structSize;
     uint32_t frameSlot; // 0..framesInFlight-1; the GPU must have finished the slot's previous frame
+    // The frame is a rectangle of its images: x and y are its top left pixel, for example that of a
+    // half of a split screen or of a tile of an atlas. x + width and y + height are at most 16384
+    // and inside every image, which the module cannot check. clipFromView is the
+    // projection of the rectangle alone, and bruteRect counts from its corner. Its bits are the
+    // same wherever it is.
+    uint32_t x, y;
     uint32_t width, height; // pixels, 1..maxWidth and 1..maxHeight of the view
     CndCamera camera;
     // The value of pixels without a surface. With CND_DEPTH_PROJECTED it is 0 with reversed depth,
@@ -489,11 +495,11 @@ CND_API CndResult cndRecordLighting(CndLightingView view, VkCommandBuffer cmd,
                                     const CndLightingFrame* frame, CndError* error);
 
 // Records a picture of what the module reads from the G-buffer, to find mistakes in an integration.
-// It uses these members of `frame`: frameSlot, size, camera, clearDepth, hostSet and the G-buffer
-// images, which must be as on entry to cndRecordLighting. Record at most one overlay per frame:
-// each frame slot has one descriptor set for it. Changes the compute pipeline, compute descriptor
-// sets 0 and 1 and the push constants; must be recorded outside a render pass. It records no memory
-// barrier. It works with or without cndRecordLighting in the same frame.
+// It uses these members of `frame`: frameSlot, x, y, size, camera, clearDepth, hostSet and the
+// G-buffer images, which must be as on entry to cndRecordLighting. Record at most one overlay per
+// frame: each frame slot has one descriptor set for it. Changes the compute pipeline, compute
+// descriptor sets 0 and 1 and the push constants; must be recorded outside a render pass. It
+// records no memory barrier. It works with or without cndRecordLighting in the same frame.
 CND_API CndResult cndRecordSurfaceOverlay(CndLightingView view, VkCommandBuffer cmd,
                                           const CndLightingFrame* frame,
                                           const CndSurfaceOverlay* overlay, CndError* error);

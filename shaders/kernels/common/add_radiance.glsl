@@ -5,15 +5,16 @@
 
 layout(binding = RADIANCE_IMAGE, rgba32f) uniform image2D radianceImage;
 
-// Stores the radiance of a pixel. What the image cannot hold becomes the largest value that it can; a
+// Stores the radiance of a texel. What the image cannot hold becomes the largest value that it can; a
 // NaN stays one.
-void storeRadiance(ivec2 pixel, vec4 radiance)
+void storeRadiance(ivec2 texel, vec4 radiance)
 {
     const vec4 largest = vec4(vec3(frameParams.largestRadiance), radiance.a);
-    imageStore(radianceImage, pixel, mix(radiance, largest, greaterThan(radiance, largest)));
+    imageStore(radianceImage, texel, mix(radiance, largest, greaterThan(radiance, largest)));
 }
 
-void addRadiance(ivec2 pixel, vec3 light)
+void addRadiance(uvec2 pixel, vec3 light)
 {
-    storeRadiance(pixel, imageLoad(radianceImage, pixel) + vec4(light, 0.0));
+    const ivec2 texel = texelOf(pixel);
+    storeRadiance(texel, imageLoad(radianceImage, texel) + vec4(light, 0.0));
 }

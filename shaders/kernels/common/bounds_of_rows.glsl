@@ -117,7 +117,7 @@ void findBoundsByRows(FrameParams frame, uint tile, SamplesOfTile samples)
     const uint pixel = least[clusterOfLane() * LEAST_COUNT + LEAST_PIXEL];
     if (pixel != 0xFFFFFFFFu) {
         Cluster c = emptyCluster(frame, tile);
-        c.axis = readNormal(ivec2(samples.first + uvec2(pixel % TILE_SIZE, pixel / TILE_SIZE)));
+        c.axis = readNormal(samples.first + uvec2(pixel % TILE_SIZE, pixel / TILE_SIZE));
         if (rowOfLane() == 0u)
             axes[clusterOfLane()] = c.axis;
         findBounds(frame, samples, c);

@@ -22,7 +22,7 @@ layout(scalar, binding = TILE_CLUSTERS_CLUSTERS) writeonly buffer Clusters
 };
 float depthAt(uvec2 pixel)
 {
-    return texelFetch(depthImage, ivec2(pixel), 0).x;
+    return texelFetch(depthImage, depthTexelOf(pixel), 0).x;
 }
 
 // The functions take the parameters of the frame as an argument, which callers copy from the uniform
@@ -48,7 +48,7 @@ struct Sample {
 Sample readSample(FrameParams frame, uvec2 pixel, float depth)
 {
     return Sample(viewPosition(frame.projection, pixel, frame.invImageSize, depth),
-                  readNormal(ivec2(pixel)), depthBits(depth));
+                  readNormal(pixel), depthBits(depth));
 }
 
 // Adds a sample to a cluster, which has its axis.

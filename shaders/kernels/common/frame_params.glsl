@@ -11,4 +11,15 @@ layout(scalar, binding = FRAME_PARAMS) uniform CandelabraFrame
     FrameParams frameParams;
 };
 
+// Return the texel of a pixel of the frame: in the images of the host, and in the depth image.
+ivec2 texelOf(uvec2 pixel)
+{
+    return ivec2(pixel + frameParams.firstTexel);
+}
+
+ivec2 depthTexelOf(uvec2 pixel)
+{
+    return ivec2(pixel + frameParams.firstDepthTexel);
+}
+
 #endif

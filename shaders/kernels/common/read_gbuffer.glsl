@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads a G-buffer of any layout. The layout is a specialisation constant, so that code for other
 // layouts is compiled away. The includer defines GBUFFER_NORMALS_ONLY if it reads nothing else. With
-// CANDELABRA_READ_SURFACE the host defines candelabraReadSurface() for the custom layout.
+// CANDELABRA_READ_SURFACE the host defines candelabraReadSurface() for the custom layout. Pixels are
+// those of the frame; texels are those of the host's images.
 #extension GL_EXT_samplerless_texture_functions : require
 #include "shared/host_gbuffer_data.h"
 #include "kernels/common/frame_params.glsl"
@@ -52,14 +53,15 @@ vec3 hostNormal(vec4 texel)
 }
 
 #ifdef CANDELABRA_READ_SURFACE
-// The host's function may read gbufferView.viewFromWorld, with its prefix (candelabra/compiler.h).
+// The host's function may read gbufferView.viewFromWorld and gbufferView.firstTexel, with its prefix
+// (candelabra/compiler.h).
 #define gbufferView frameParams
 
-Surface candelabraReadSurface(ivec2 pixel);
+Surface candelabraReadSurface(ivec2 texel);
 
-Surface customSurface(ivec2 pixel)
+Surface customSurface(ivec2 texel)
 {
-    Surface s = candelabraReadSurface(pixel);
+    Surface s = candelabraReadSurface(texel);
     precise const vec3 n = s.normal;
     s.normal = unitNormal(n);
     s.perceptualRoughness = clamp(s.perceptualRoughness, 0.0, 1.0);
@@ -67,15 +69,16 @@ Surface customSurface(ivec2 pixel)
 }
 #endif
 
-vec3 readNormal(ivec2 pixel)
+vec3 readNormal(uvec2 pixel)
 {
+    const ivec2 texel = texelOf(pixel);
 #ifdef CANDELABRA_READ_SURFACE
     if (gbufferLayout == GBUFFER_LAYOUT_CUSTOM)
-        return customSurface(pixel).normal;
+        return customSurface(texel).normal;
 #endif
     if (gbufferLayout == GBUFFER_LAYOUT_HOST)
-        return hostNormal(texelFetch(normalImage, pixel, 0));
-    return unpackNormal(gbufferLayout, texelFetch(packedNormalImage, pixel, 0).xy);
+        return hostNormal(texelFetch(normalImage, texel, 0));
+    return unpackNormal(gbufferLayout, texelFetch(packedNormalImage, texel, 0).xy);
 }
 
 #ifndef GBUFFER_NORMALS_ONLY
@@ -89,10 +92,10 @@ struct HostTexels {
     vec4 normal, albedo, specular;
 };
 
-HostTexels readHostTexels(ivec2 pixel)
+HostTexels readHostTexels(ivec2 texel)
 {
-    return HostTexels(texelFetch(normalImage, pixel, 0), texelFetch(albedoImage, pixel, 0),
-                      texelFetch(specularImage, pixel, 0));
+    return HostTexels(texelFetch(normalImage, texel, 0), texelFetch(albedoImage, texel, 0),
+                      texelFetch(specularImage, texel, 0));
 }
 
 float channelOf(HostTexels t, uint channel)
@@ -132,19 +135,20 @@ Surface hostSurface(HostTexels t)
     return s;
 }
 
-Surface readSurface(ivec2 pixel)
+Surface readSurface(uvec2 pixel)
 {
+    const ivec2 texel = texelOf(pixel);
 #ifdef CANDELABRA_READ_SURFACE
     if (gbufferLayout == GBUFFER_LAYOUT_CUSTOM)
-        return customSurface(pixel);
+        return customSurface(texel);
 #endif
     if (gbufferLayout == GBUFFER_LAYOUT_HOST)
-        return hostSurface(readHostTexels(pixel));
-    const uvec2 packedNormal = texelFetch(packedNormalImage, pixel, 0).xy;
+        return hostSurface(readHostTexels(texel));
+    const uvec2 packedNormal = texelFetch(packedNormalImage, texel, 0).xy;
     if (gbufferLayout == GBUFFER_LAYOUT_COMPACT)
-        return unpackGBufferCompact(packedNormal.x, texelFetch(albedoImage, pixel, 0));
-    return unpackGBufferFull(packedNormal, texelFetch(packedAlbedoImage, pixel, 0).xy,
-                             texelFetch(packedSpecularImage, pixel, 0).xy);
+        return unpackGBufferCompact(packedNormal.x, texelFetch(albedoImage, texel, 0));
+    return unpackGBufferFull(packedNormal, texelFetch(packedAlbedoImage, texel, 0).xy,
+                             texelFetch(packedSpecularImage, texel, 0).xy);
 }
 
 #endif

@@ -15,7 +15,7 @@ vec4 dfgTexel(int entry)
 ShadingPoint readShadingPoint(uvec2 pixel, float depth)
 {
     const vec3 position = viewPosition(frameParams.projection, pixel, frameParams.invImageSize, depth);
-    ShadingPoint p = makeShadingPoint(readSurface(ivec2(pixel)), position,
+    ShadingPoint p = makeShadingPoint(readSurface(pixel), position,
                                       towardsEye(frameParams.projection, position));
     if (frameParams.lobes != LOBES_SUM)
         joinLobes(p, directionalAlbedo(p.NoV, p.alpha), frameParams.lobes & (COMPENSATE_ENERGY - 1u),

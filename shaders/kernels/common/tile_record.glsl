@@ -28,7 +28,7 @@ layout(scalar, binding = TILE_CLUSTERS_SPLITS) buffer Splits
 // has the lobe.
 bool isDiffuse(uvec2 pixel)
 {
-    const Surface s = readSurface(ivec2(pixel));
+    const Surface s = readSurface(pixel);
     return s.F0.x == 0.0 && s.F0.y == 0.0 && s.F0.z == 0.0 && s.specularWeight == 0.0;
 }
 
