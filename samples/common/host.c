@@ -195,9 +195,10 @@ Host createHost(uint32_t width, uint32_t height)
     createHostDevice(&host, 0, NULL, 0, NULL);
     const VkImageUsageFlags sampled = VK_IMAGE_USAGE_SAMPLED_BIT;
     const VkImageUsageFlags storage = VK_IMAGE_USAGE_STORAGE_BIT;
-    host.normalRoughness = createImage(&host, VK_FORMAT_R32G32_UINT, sampled);
-    host.albedo = createImage(&host, VK_FORMAT_R32G32_UINT, sampled);
-    host.specular = createImage(&host, VK_FORMAT_R32G32_UINT, sampled);
+    const VkImageUsageFlags drawn = sampled | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    host.normalRoughness = createImage(&host, VK_FORMAT_R32G32_UINT, drawn);
+    host.albedo = createImage(&host, VK_FORMAT_R32G32_UINT, drawn);
+    host.specular = createImage(&host, VK_FORMAT_R32G32_UINT, drawn);
     host.depth = createImage(&host, VK_FORMAT_D32_SFLOAT,
                              sampled | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
     host.radiance = createImage(&host, VK_FORMAT_R32G32B32A32_SFLOAT,

@@ -138,6 +138,8 @@ FOLDERS = [
     ("samples/embed_shadow_map", ["samples/common", "bar_vert.h"]),
     ("samples/embed_shadows", ["samples/common", "box_frag.h", "box_vert.h", "stalk_comp.h"]),
     ("samples/embed_split_screen", ["samples/common"]),
+    ("samples/embed_visibility_buffer", ["samples/common", "shaders/lib/gbuffer.glsl", "scene_glsl.inc",
+                                         "surface_glsl.inc", "ids_frag.h", "plain_frag.h", "scene_vert.h"]),
     ("samples/embed_window", ["samples/common", "boxes.frag.inc", "boxes.vert.inc"]),
 
     # Tests may include everything, and nothing includes tests.
