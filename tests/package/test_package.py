@@ -250,10 +250,29 @@ include("{port}")
     configured(folder / "build", run("cmake", "-P", script))
 
 
+# What the first listing of the guide takes from the host.
+HOST = """VkInstance instance, VkPhysicalDevice physicalDevice, VkDevice vkDevice, VkPhysicalDeviceFeatures2 features2,
+    uint32_t width, uint32_t height, uint32_t slot, CndCamera camera, VkCommandBuffer cmd, VkImageView normalView,
+    VkImageView baseColourView, VkImageView roughnessMetalnessView, VkImageView depthView, VkImageView radianceView"""
+
+
+def guide(flags):
+    """The guide begins with the first light: at most 25 lines of code, which compile."""
+    text = (source / "engine/INTEGRATION.md").read_text(encoding="utf-8")
+    start = text[text.index("## The first light"):text.index("## 1. ")]
+    lines = [line for block in re.findall(r"```\w+\n(.*?)```", start, re.DOTALL) for line in block.split("\n") if line]
+    require(len(lines) <= 25, f"the first light takes {len(lines)} lines")
+    include, code = re.search(r"```cpp\n(#include.*?\n)(.*?)```", start, re.DOTALL).groups()
+    listing = work / "first_light.cpp"
+    listing.write_text(f"{include}void host({HOST})\n{{\n{code}}}\n", encoding="utf-8")
+    run("c++", "-std=c++20", "-fsyntax-only", listing, *flags)
+
+
 def pkg_config():
     where = {"PKG_CONFIG_PATH": str(libdir() / "pkgconfig")}
     flags = shlex.split(run("pkg-config", "--cflags", "--libs", "candelabra", **where))
     static = shlex.split(run("pkg-config", "--cflags", "--libs", "--static", "candelabra", **where))
+    guide([flag for flag in flags if not flag.startswith("-l")])
     main = source / "tests/package/consumer/main.c"
     archive = [f.replace("-lcandelabra", "-l:libcandelabra.a") for f in static]
     for name, compiler in {"c": ("cc", main),
