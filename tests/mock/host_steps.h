@@ -27,11 +27,12 @@ struct Host {
     uint32_t lightCount = 0; // size of the last set that was accepted
     CndLightId added[2] = {}, polygons[firstPolygons + morePolygons] = {};
 
-    // Used by rasterSteps() only.
-    std::unique_ptr<gpu::Device> rasterDevice;
-    std::unique_ptr<gbuffer::GBuffer> raster;
-    std::unique_ptr<gbuffer::Targets> targets;
-    std::unique_ptr<gbuffer::Geometry> geometry;
+    // Used by rasterSteps() only. Shared pointers can be destroyed in builds without the raster
+    // pass.
+    std::shared_ptr<gpu::Device> rasterDevice;
+    std::shared_ptr<gbuffer::GBuffer> raster;
+    std::shared_ptr<gbuffer::Targets> targets;
+    std::shared_ptr<gbuffer::Geometry> geometry;
 
     // Used by occluderSteps() only.
     CndOccluderMeshId occluderMesh = 0; // that all occluders use

@@ -38,6 +38,7 @@ const Family families[] = {
       "CreateDescriptorSetLayout", "CreateDescriptorPool", "AllocateDescriptorSets",
       "CreateQueryPool", "CreateImage", "CreateImageView", "BindImageMemory", "CreateSampler",
       "GetQueryPoolResults"}},
+#ifdef CANDELABRA_RASTER_PASS
     {"RasterPass",
      rasterSteps,
      100,
@@ -49,6 +50,7 @@ const Family families[] = {
       "CreatePipelineLayout", "CreateDescriptorSetLayout", "CreateDescriptorPool",
       "AllocateDescriptorSets", "CreateQueryPool", "CreateImage", "CreateImageView",
       "BindImageMemory", "CreateSampler", "GetQueryPoolResults"}},
+#endif
     {"Occluders",
      occluderSteps,
      100,
