@@ -236,10 +236,12 @@ def options_of_commands():
         text = subprocess.run([program, *words, "--help"], capture_output=True, text=True, check=True).stdout
         parts = re.findall(r"^  ([a-z]+) ", text.partition("Subcommands:\n")[2].partition("\n\n")[0], re.MULTILINE)
         for part in parts:
-            if part != "help":  # "help X --help" is "X --help"
+            if part not in ("help", "options"):  # these print help and run nothing
                 add([*words, part])
         if not parts:
+            shared = re.search(r"\nShared options[^:]*:\n(.*?)\n\n", text, re.DOTALL)
             options = re.findall(r"^  (?:-\w,)?(--[\w-]+)( \S)?", text, re.MULTILINE)
+            options += re.findall(r"(--[\w-]+)( \S)?", shared[1] if shared else "")
             found[" ".join(words)] = [(name, bool(value)) for name, value in options if name != "--help"]
 
     add([])

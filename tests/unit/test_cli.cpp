@@ -2,6 +2,7 @@
 // Tests the command line: what is refused, with which message and exit code. Nothing here uses
 // Vulkan.
 #include <algorithm>
+#include <cctype>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -12,6 +13,7 @@
 #include <spdlog/sinks/ostream_sink.h>
 #include <spdlog/spdlog.h>
 
+#include "commands/help.h"
 #include "commands/messages.h"
 #include "commands/options.h"
 #include "generate/generators.h"
@@ -164,6 +166,41 @@ TEST(Cli, HelpIsACommandToo)
     EXPECT_NE(runWith({"help"}).out.find("help "), std::string::npos); // is listed itself
 }
 
+TEST(Cli, SharedOptionsAreNamedByCommandsAndExplainedOnce)
+{
+    const std::string render = runWith({"help", "render"}).out;
+    const std::string explained = runWith({"help", "options"}).out;
+    EXPECT_EQ(runWith({"options"}).out, explained);
+    for (const char* option : {"--seed S", "--camera NAME", "--shadows NAME=auto", "--device"}) {
+        EXPECT_NE(render.find(option), std::string::npos) << option;
+        EXPECT_NE(explained.find(option), std::string::npos) << option;
+    }
+    EXPECT_NE(runWith({"help", "profile"}).out.find("--shadows NAME=off"), std::string::npos);
+    EXPECT_EQ(render.find("random numbers"), std::string::npos); // --seed
+    EXPECT_NE(explained.find("random numbers"), std::string::npos);
+    EXPECT_NE(render.find("smooth the edges"), std::string::npos); // of render alone
+}
+
+TEST(Cli, HelpIsWrappedToItsWidth)
+{
+    CLI::App app("eight words that cannot stand on one line", "candelabra");
+    app.formatter(std::make_shared<HelpFormatter>(60, SharedOptions::Named));
+    bool flag = false;
+    app.add_flag("--name", flag, "some words that need more than the rest of one line of text");
+    app.add_flag("--a-name-as-long-as-the-column", flag, "beside");
+    EXPECT_EQ(app.help(), "eight words that cannot stand on one line\n\n"
+                          "Usage: candelabra [OPTIONS]\n\n"
+                          "Options:\n"
+                          "  -h,--help                 Print this help message and exit\n"
+                          "  --name                    some words that need more than\n"
+                          "                            the rest of one line of text\n"
+                          "  --a-name-as-long-as-the-column\n"
+                          "                            beside\n\n");
+    std::istringstream lines(runWith({"help", "options"}).out);
+    for (std::string line; std::getline(lines, line);)
+        EXPECT_LE(line.size(), terminalWidth()) << line;
+}
+
 TEST(Cli, ClosestWordsAreNearEnough)
 {
     const std::vector<std::string> known{"--lights", "--lights-visible", "--lod", "--size"};
@@ -189,7 +226,11 @@ TEST(Cli, VersionIsTheLibrarys)
 
 TEST(Cli, HelpNamesTheCamerasOfGeneratedScenes)
 {
-    const std::string help = runWith({"render", "--help"}).out;
+    std::string help = runWith({"options"}).out;
+    help.erase(std::unique(help.begin(), help.end(),
+                           [](char a, char b) { return std::isspace(a) && std::isspace(b); }),
+               help.end());
+    std::replace(help.begin(), help.end(), '\n', ' ');
     const auto expectNames = [&](const std::string& name, const Scene& scene) {
         std::string names = name + ":";
         for (const Camera& camera : scene.cameras)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <new>
 #include <sstream>
 #include <string>
@@ -15,6 +16,7 @@
 #include <spdlog/spdlog.h>
 
 #include "commands/commands.h"
+#include "commands/help.h"
 #include "commands/parser_messages.h"
 #include "io/error.h"
 #include "io/report.h"
@@ -209,19 +211,24 @@ void addHelpCommand(CLI::App& app)
     help->add_option("command")->description("the command, such as render or bench culling");
     help->footer("Examples:\n"
                  "  candelabra help\n"
+                 "  candelabra help options\n"
                  "  candelabra help bench culling");
 }
 
 // Returns the arguments with "help WORDS" replaced by "WORDS --help", so that both print the same
-// and refuse the same.
+// and refuse the same, and "options" by "options --help".
 std::vector<const char*> withHelpAsOption(int argc, const char* const* argv)
 {
     std::vector<const char*> out(argv, argv + argc);
     const auto first = std::find_if(out.begin() + std::min(argc, 1), out.end(),
                                     [](const char* argument) { return argument[0] != '-'; });
-    if (first == out.end() || std::string(*first) != "help")
+    if (first == out.end())
         return out;
-    out.erase(first);
+    const bool isHelp = std::string(*first) == "help";
+    if (!isHelp && std::string(*first) != optionsCommand)
+        return out;
+    if (isHelp)
+        out.erase(first);
     out.push_back("--help");
     return out;
 }
@@ -232,7 +239,11 @@ int parseAndRun(int typedCount, const char* const* typed)
     const int argc = int(arguments.size());
     const char* const* argv = arguments.data();
     ProgramContext context{.commandLine = commandLine(argc, argv)};
-    CLI::App app("Lights scenes with thousands of physically sized lights.", "candelabra");
+    CLI::App app("Candelabra lights a scene with thousands of physically sized lights: spheres, "
+                 "tubes, rectangles, discs, polygons, suns, spots and points, in photometric units "
+                 "(lm, cd, lx, cd/m^2).",
+                 "candelabra");
+    app.formatter(std::make_shared<HelpFormatter>(terminalWidth(), SharedOptions::Named));
     Run run;
     addProgramOptions(app, context);
     addRenderCommand(app, run);
@@ -246,6 +257,7 @@ int parseAndRun(int typedCount, const char* const* typed)
     addBenchCommand(app, run);
     addDevicesCommand(app, run);
     addExamplesCommand(app, run);
+    addOptionsCommand(app);
     addHelpCommand(app);
     refuseWrongAssignments(app, argc, argv);
     try {

@@ -9,6 +9,7 @@
 #include <spdlog/spdlog.h>
 
 #include "candelabra/candelabra.hpp"
+#include "commands/help.h"
 #include "generate/generators.h"
 #include "io/table.h"
 #include "render/camera.h"
@@ -100,6 +101,7 @@ void addWarmUpTo(CLI::App& command, std::string& seconds)
 
 void DeviceArguments::addTo(CLI::App& command)
 {
+    const OptionGroup group(command, deviceGroup);
     addOption(command, "--device", device, "INDEX|NAME",
               "Vulkan device, by its index or part of its name as `candelabra devices` lists them; "
               "default: a discrete GPU, else an integrated one, else a CPU");
@@ -130,6 +132,7 @@ void DeviceArguments::requireRoomFor(uint32_t lights) const
 
 void LobeArguments::addTo(CLI::App& command)
 {
+    const OptionGroup group(command, lightingGroup);
     addChoice(command, "--lobes", lobes, lobeChoices,
               "how the diffuse and specular lobes of a material share the light (default: sum for "
               "scene .json files without a source, else conserving)");
@@ -157,6 +160,12 @@ void SceneArguments::addTo(CLI::App& command, const std::string& fallback)
         "file");
     if (fallback.empty())
         option->required();
+    addOptionsTo(command);
+}
+
+void SceneArguments::addOptionsTo(CLI::App& command)
+{
+    const OptionGroup group(command, sceneGroup);
     addOption(command, "--seed", seed, "S", "seed of all random numbers in the scene (1)");
     addOption(command, "--overlaps", overlaps, "K",
               "mean number of generated lights that contribute to a pixel; sets their radius of "
@@ -186,6 +195,7 @@ void SceneArguments::addTo(CLI::App& command, const std::string& fallback)
 
 void SceneArguments::addDefaultLightTo(CLI::App& command)
 {
+    const OptionGroup group(command, sceneGroup);
     defaultLight = "on";
     addChoice(command, "--default-light", defaultLight, onOffChoices,
               "light a scene that has no lights with a studio, a soft grey sky with a key light; "
@@ -194,6 +204,7 @@ void SceneArguments::addDefaultLightTo(CLI::App& command)
 
 void SceneArguments::addLightsTo(CLI::App& command)
 {
+    const OptionGroup group(command, sceneGroup);
     addOption(
         command, "--lights", lightsOption, "N",
         "number of sphere lights in hall, field, fence and rooms (4000); a file gets this many "
@@ -275,6 +286,7 @@ void SceneArguments::warnOfIdleOptions(std::optional<uint32_t> lights) const
 
 void FrameArguments::addPlaceTo(CLI::App& command)
 {
+    const OptionGroup group(command, pictureGroup);
     addOption(command, "--size", size, "WxH",
               "image size in pixels; default: the scene's size, else 1280x720");
     addOption(command, "--camera", camera, "NAME|INDEX|px,py,pz,tx,ty,tz[,fov]",
@@ -290,6 +302,7 @@ void FrameArguments::addPlaceTo(CLI::App& command)
 void FrameArguments::addViewTo(CLI::App& command)
 {
     addPlaceTo(command);
+    const OptionGroup group(command, pictureGroup);
     addChoice(command, "--lights-visible", lightsVisible, onOffChoices,
               "draw area lights as visible emitters (default: as the scene says)");
 }
@@ -303,8 +316,15 @@ void FrameArguments::addWithShadowsTo(CLI::App& command)
 
 void FrameArguments::addTo(CLI::App& command)
 {
-    specular = specularName(CND_SPECULAR_CONIC);
     addViewTo(command);
+    addDisplayTo(command);
+    addShadingTo(command);
+    addDrawingTo(command);
+}
+
+void FrameArguments::addDisplayTo(CLI::App& command)
+{
+    const OptionGroup group(command, pictureGroup);
     addOption(command, "--exposure", exposure, "auto|EV",
               "automatic, or a fixed EV100; with the studio of --default-light, auto uses the "
               "EV100 of its light");
@@ -317,6 +337,12 @@ void FrameArguments::addTo(CLI::App& command)
     addChoice(command, "--metering", metering, meteringChoices,
               "how automatic exposure weights the pixels");
     addChoice(command, "--tonemap", toneMap, toneMapChoices, "tone map of the display image");
+}
+
+void FrameArguments::addShadingTo(CLI::App& command)
+{
+    const OptionGroup group(command, lightingGroup);
+    specular = specularName(CND_SPECULAR_CONIC);
     addChoice(command, "--specular", specular, specularChoices,
               "method for the specular lobe; conic is the closed form, karis the representative "
               "point of Karis 2013, and sampled takes random samples");
@@ -330,6 +356,11 @@ void FrameArguments::addTo(CLI::App& command)
                          "longer, by an estimate that is the same in every run");
     else
         addChoice(command, "--shadows", shadows, shadowChoices, what);
+}
+
+void FrameArguments::addDrawingTo(CLI::App& command)
+{
+    const OptionGroup group(command, drawingGroup);
     addChoice(command, "--gbuffer", gbuffer, gbufferChoices, "layout of the G-buffer");
     addChoice(command, "--lod", lod, onOffChoices,
               "draw coarser levels of detail of meshes where that moves their surface by at most a "
@@ -341,6 +372,7 @@ void FrameArguments::addTo(CLI::App& command)
 
 void FrameArguments::addFitTo(CLI::App& command)
 {
+    const OptionGroup group(command, pictureGroup);
     addOption(command, "--fit", fit, "NODE|INDEX",
               "move the camera, without turning it, until this node of a glTF file and everything "
               "below it fill 85% of the picture; give the node's name or its number in the file");
@@ -348,12 +380,14 @@ void FrameArguments::addFitTo(CLI::App& command)
 
 void FrameArguments::addCullingTo(CLI::App& command)
 {
+    const OptionGroup group(command, lightingGroup);
     addChoice(command, "--culling", culling, cullingChoices,
               "find the lights of a pixel by clusters, or by trying every light");
 }
 
 void FrameArguments::addReuseTo(CLI::App& command, Reuse fallback)
 {
+    const OptionGroup group(command, lightingGroup);
     reuse = reuseName(fallback);
     addChoice(command, "--reuse", reuse, reuseChoices,
               "what a frame reuses from the previous frame if nothing has changed; the image stays "
@@ -362,6 +396,7 @@ void FrameArguments::addReuseTo(CLI::App& command, Reuse fallback)
 
 void FrameArguments::addDebugTo(CLI::App& command)
 {
+    const OptionGroup group(command, pictureGroup);
     addChoice(
         command, "--debug", heatMap, heatMapChoices,
         "show in false colours what the lights cost each pixel, instead of the picture; "
@@ -372,6 +407,7 @@ void FrameArguments::addDebugTo(CLI::App& command)
 
 void FrameArguments::addInfluenceTo(CLI::App& command)
 {
+    const OptionGroup group(command, lightingGroup);
     addChoice(command, "--influence", influence, influenceChoices,
               "let lights reach as far as the influence radii of the scene, or everywhere");
     addOption(command, "--influence-error", influenceError, "E, such as 0.5/255 or 0.002",

@@ -57,6 +57,8 @@ struct SceneArguments {
     // With a `fallback`, which is the default scene, SCENE may be left out, or be named with
     // --scene.
     void addTo(CLI::App& command, const std::string& fallback = "");
+    // Adds only the options.
+    void addOptionsTo(CLI::App& command);
     // For commands that draw one number of lights.
     void addLightsTo(CLI::App& command);
     // For commands that make pictures to look at.
@@ -92,6 +94,11 @@ struct FrameArguments {
     void addReuseTo(CLI::App& command, Reuse fallback);
     void addDebugTo(CLI::App& command);
     void addInfluenceTo(CLI::App& command);
+
+    // The parts of addTo() after what is seen.
+    void addDisplayTo(CLI::App& command);
+    void addShadingTo(CLI::App& command);
+    void addDrawingTo(CLI::App& command);
 
     // All of these throw UsageError for a value that they cannot read.
     PixelSize pixelSize(const Scene& scene, const Camera& camera) const;
