@@ -379,7 +379,7 @@ WRITERS = [
 ] + [(["render", "hall", "--lights", "5", "--size", "96x96", "-q", "-o", "{}/x." + e], "x." + e, True)
      for e in ("png", "exr", "pfm", "hdr")] + [
     (["render", "hall", "--lights", "5", "--size", "8x8", "-q", "--json", "{}/x.json"], "x.json", True),
-    (["render", "hall", "--lights", "5", "--size", "8x8", "-q", "--debug", "class", "-o", "{}/x.png"], "x.png", True),
+    (["render", "hall", "--lights", "5", "--size", "96x96", "-q", "--debug", "class", "-o", "{}/x.png"], "x.png", True),
     (["profile", "hall", "--lights", "5", "--size", "8x8", "--frames", "4", "-q", "--json", "{}/x.json"], "x.json", True),
     (["profile", "hall", "--lights", "5", "--size", "8x8", "--frames", "4", "-q", "--csv", "{}/x.csv"], "x.csv", True),
     (["stress", "--lights", "5", "--size", "64x64", "--frames", "1", "-q", "--out", "{}"], "hall_5.png", True),
