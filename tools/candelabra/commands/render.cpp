@@ -260,7 +260,8 @@ void chooseShadows(const Scene& scene, PixelSize size, const VulkanContext& cont
         spdlog::info("{}", shadowsLeftOutText(seconds));
 }
 
-// Says what will be rendered. `onCpu`: a picture has one sample because the device is a CPU.
+// Says what will be rendered. `onCpu`: a picture has one sample because the device is a CPU, and
+// its edges are filtered.
 void printScene(const Scene& scene, PixelSize size, const VulkanContext& context, uint32_t samples,
                 bool onCpu)
 {
@@ -270,8 +271,8 @@ void printScene(const Scene& scene, PixelSize size, const VulkanContext& context
                  samples > 1 ? fmt::format("{} samples per pixel", samples) : "1 sample per pixel",
                  context.info().name);
     if (onCpu)
-        spdlog::info("edges are not smooth: the device is a CPU, where --aa {} takes {} times as "
-                     "long; --edge-filter is faster",
+        spdlog::info("a filter smooths the edges of .png files, because the device is a CPU; --aa "
+                     "{} smooths better, and linear files too, in {} times the time",
                      pictureSamples, pictureSamples);
 }
 
@@ -333,6 +334,7 @@ int render(const ProgramContext& program, const RenderArguments& a)
     const VulkanContext context(a.device.contextOptions());
     const bool isGpu = context.info().type != VK_PHYSICAL_DEVICE_TYPE_CPU;
     p.counts.samples = p.samples.value_or(isGpu ? pictureSamples : 1);
+    p.frame.edgeFilter |= !p.samples && !isGpu;
     printScene(scene, size, context, p.counts.samples, !p.samples && !isGpu);
     if (p.choosesShadows)
         chooseShadows(scene, size, context, p);
@@ -362,15 +364,15 @@ void addPictureOptions(CLI::App& command, RenderArguments& a)
     addOption(command, "--aa", a.samples, "N|auto",
               "anti-aliasing: a frame is the mean of N samples, each shifted by part of a pixel "
               "and lit again; linear files get the mean radiance, pictures the mean light of the "
-              "display; auto is 16 for pictures on a GPU, and 1 on a CPU, for several --frames "
-              "that are only timed, and with --edge-filter, --debug or --influence-error");
+              "display; auto is 16 for pictures on a GPU, 1 with --edge-filter on a CPU, and 1 for "
+              "several --frames that are only timed and with --debug or --influence-error");
     addOption(command, "--bloom", a.bloom, "SHARE",
               "share of the light, 0 to 1, that is spread over the picture as an eye scatters it, "
               "to make lamps look bright; 0.04 to 0.2 look natural; linear files and the metering "
               "of exposure leave it out");
     command.add_flag("--edge-filter", a.edgeFilter,
-                     "smooth the edges of pictures with one sample per pixel, in a fraction of the "
-                     "time of --aa; linear files keep their edges");
+                     "smooth the edges of .png files with one sample per pixel, in a fraction of "
+                     "the time of --aa; linear files keep their edges");
 }
 
 } // namespace
