@@ -33,7 +33,7 @@ int writeExamples(const std::string& directory, bool replace)
     saveHdr(sky, exampleSky());
     writeText("-", fmt::format("{}  a glTF scene with two lamps\n"
                                "{}  balls on a floor under lights of three types\n"
-                               "{}  a hazy sky, for --environment\n",
+                               "{}  a sky at dusk, for --environment\n",
                                gltf, json, sky));
     return exitOk;
 }

@@ -155,19 +155,18 @@ private:
     std::vector<uint8_t> binary_;
 };
 
-// The luminance of the sky in a direction, in cd/m^2: haze at the horizon, a sun of some degrees
-// with a glow around it, and dim ground.
+// The luminance of the sky at dusk in a direction, in cd/m^2: it is bright where the sun has set,
+// warm along the horizon and blue above, over dim ground.
 glm::vec3 skyLuminance(const glm::vec3& direction)
 {
-    const glm::vec3 sun = glm::normalize(glm::vec3(-0.5f, 0.35f, 0.6f));
+    const glm::vec3 sunset = glm::normalize(glm::vec3(-0.5f, 0, -0.6f));
     if (direction.y < 0)
-        return glm::vec3(420, 400, 370);
-    const float haze = std::pow(1 - direction.y, 3.0f);
-    const float toSun = glm::dot(direction, sun);
-    const float glow = std::pow(std::max(toSun, 0.0f), 40.0f);
-    const float disc = toSun > 0.998f ? 1.0f : 0.0f;
-    return glm::mix(glm::vec3(900, 1500, 2600), glm::vec3(3200, 3100, 2900), haze) +
-           glow * glm::vec3(9000, 7200, 4600) + disc * glm::vec3(2.2e6f, 1.9e6f, 1.4e6f);
+        return glm::vec3(0.5f, 0.5f, 0.6f);
+    const float haze = std::pow(1 - direction.y, 6.0f);
+    const float toSunset = 0.5f + 0.5f * glm::dot(direction, sunset);
+    const float glow = haze * std::pow(toSunset, 3.0f);
+    return glm::mix(glm::vec3(1.2f, 2.2f, 5), glm::vec3(4, 4, 5), haze) +
+           glow * glm::vec3(24, 11, 4);
 }
 
 } // namespace
