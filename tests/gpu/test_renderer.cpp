@@ -624,6 +624,34 @@ TEST_F(RendererTest, KeptFramesHaveTheSameBits)
     }
 }
 
+// A frame that is lit band by band is the frame, and the next one knows that lists are not its own.
+TEST_F(RendererTest, FramesInBandsHaveTheSameBits)
+{
+    const Scene scene = hall(300);
+    Renderer whole(context(), scene, optionsOf({160, 90})),
+        banded(context(), scene, optionsOf({160, 90}));
+    FrameOptions frame = frameOf(scene);
+    frame.reuse = Reuse::Lighting;
+    for (const uint32_t rows : {90u, 24u, 8u}) {
+        frame.camera.position.y += 0.1;
+        context().submitAndWait([&](VkCommandBuffer cmd) { banded.recordUnlit(cmd, frame, 1); });
+        for (uint32_t row = 0; row < 90; row += rows)
+            context().submitAndWait([&](VkCommandBuffer cmd) {
+                banded.recordBand(cmd, row / rows % 2, frame, row, std::min(row + rows, 90u));
+            });
+        const FrameStats stats = draw(whole, frame);
+        EXPECT_EQ(firstDifference(readRadiance(context(), banded), readRadiance(context(), whole)),
+                  -1)
+            << rows;
+        EXPECT_EQ(readDisplay(context(), banded), readDisplay(context(), whole)) << rows;
+        EXPECT_EQ(banded.exposureStats((90 - 1) / rows % 2).adaptedEv100,
+                  stats.exposure.adaptedEv100);
+        FrameOptions next = frame;
+        next.specular = CND_SPECULAR_KARIS;
+        EXPECT_EQ(firstDifference(radiance(banded, next), radiance(whole, next)), -1) << rows;
+    }
+}
+
 TEST_F(RendererTest, HeatMapsShowWhatWasCounted)
 {
     const Scene scene = hall(400);

@@ -97,13 +97,12 @@ void FrameRing::submit(VkSemaphore wait, VkSemaphore signal)
     current_ = (current_ + 1) % slots();
 }
 
-bool FrameRing::waitForNext(std::chrono::nanoseconds most) const
+bool FrameRing::waitFor(uint32_t slot, std::chrono::nanoseconds most) const
 {
-    const Slot& slot = slots_[current_];
-    if (!slot.used)
+    if (!slots_[slot].used)
         return true;
-    const VkResult result =
-        vkWaitForFences(context_.desc().device, 1, &slot.done, VK_TRUE, uint64_t(most.count()));
+    const VkResult result = vkWaitForFences(context_.desc().device, 1, &slots_[slot].done, VK_TRUE,
+                                            uint64_t(most.count()));
     check(result == VK_TIMEOUT ? VK_SUCCESS : result, "waiting for a frame");
     return result == VK_SUCCESS;
 }

@@ -223,7 +223,9 @@ struct Renderer::State {
         emitterLayers;           // layers of the emitters in the G-buffer; empty: no lights yet
     bool culledTriangles = true; // FrameOptions::cullTriangles of the last recorded frame
     double lightTime = 0;
-    std::optional<LitImageKey> drawn;         // what the images show
+    std::optional<LitImageKey> drawn; // what the images show
+    bool litInBands = false; // so lists are those of the last band (recordBand), if there are any
+    gpu::Image bandDepth;    // created for the first frame that is lit in bands
     std::optional<HeatMapPass> heatMaps;      // created for the first frame that shows a heat map
     std::optional<Accumulation> accumulation; // created for the first frame of several samples
     std::optional<Bloom> bloom;               // created for the first frame that has it
@@ -263,6 +265,7 @@ struct Renderer::State {
     void recordGBuffer(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame);
     void recordEnvironment(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame) const;
     void recordDisplay(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame);
+    void recordBandDepth(VkCommandBuffer cmd, uint32_t firstRow, uint32_t endRow);
     CndLightingFrame lightingFrame(uint32_t slot, const FrameOptions& frame) const;
     // The members that frames of lighting and of the environment have in common.
     template <typename Frame>
@@ -312,6 +315,7 @@ void Renderer::State::createSized()
     // The old images are destroyed first, so that old and new ones never take memory at the same
     // time.
     view.reset();
+    bandDepth = {};
     slotViews.assign(options.framesInFlight, nullptr);
     targets = {};
     display = {};
@@ -559,9 +563,8 @@ void Renderer::record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& fr
     const bool kept = frame.reuse == Reuse::Lighting && oneSample && !counts && s.drawn == lit;
     if (frame.heatMap != HeatMap::None && !s.heatMaps)
         s.heatMaps.emplace(s.context.device(), s.options.size, s.options.framesInFlight);
-    if (!oneSample && !s.accumulation)
-        s.accumulation.emplace(s.context.device(), s.options.size, s.options.framesInFlight);
-    const bool sameSurfaces = frame.reuse != Reuse::None && s.drawn && s.drawn->sameSurfaces(lit);
+    const bool sameSurfaces =
+        frame.reuse != Reuse::None && s.drawn && !s.litInBands && s.drawn->sameSurfaces(lit);
     const VkImage radiance = s.targets.radiance.image.get();
     s.litSlots[slot] = !kept;
     s.stamps.begin(cmd, slot);
@@ -580,6 +583,7 @@ void Renderer::record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& fr
         valueOrThrow(s.view->record(cmd, lighting));
         s.slotViews[slot] = s.view;
         s.drawn = lit;
+        s.litInBands = false;
         transition(cmd, radiance, computeWrite, computeRead);
     }
     s.recordDisplay(cmd, slot, frame);
@@ -592,6 +596,8 @@ void Renderer::State::recordDisplay(VkCommandBuffer cmd, uint32_t slot, const Fr
     const FrameSample& sample = frame.sample;
     const bool first = sample.index == 0; // the exposure of a frame follows from its first sample
     const bool sums = sample.count > 1, last = sample.isLast();
+    if (sums && !accumulation)
+        accumulation.emplace(context.device(), options.size, options.framesInFlight);
     if (last)
         transition(cmd, display.image.get(), discarded, computeWrite);
     const VkImageView drawnOn = sums ? accumulation->recordInput(cmd) : display.view.get();
@@ -633,10 +639,60 @@ void Renderer::State::recordDisplay(VkCommandBuffer cmd, uint32_t slot, const Fr
         transition(cmd, display.image.get(), computeWrite, transferRead);
 }
 
-void Renderer::recordUnlit(VkCommandBuffer cmd, const FrameOptions& frame)
+void Renderer::recordUnlit(VkCommandBuffer cmd, const FrameOptions& frame, uint32_t slot)
 {
     state_->moveLights(frame.time);
-    state_->recordGBuffer(cmd, 0, frame);
+    state_->recordGBuffer(cmd, slot, frame);
+}
+
+// The lighting module finds work where the depth says that there is a surface. So it lights the
+// rows of a depth image that has no other surfaces.
+void Renderer::recordBand(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame,
+                          uint32_t firstRow, uint32_t endRow)
+{
+    State& s = *state_;
+    s.fitRoom(slot);
+    s.recordBandDepth(cmd, firstRow, endRow);
+    CndLightingFrame lighting = s.lightingFrame(slot, frame);
+    lighting.depth = s.bandDepth.view.get();
+    valueOrThrow(s.view->record(cmd, lighting));
+    s.slotViews[slot] = s.view;
+    s.litSlots[slot] = true;
+    s.litInBands = true;
+    if (endRow != s.options.size.height)
+        return;
+    s.drawn = s.litImageKey(slot, frame);
+    transition(cmd, s.targets.radiance.image.get(), computeWrite, computeRead);
+    s.recordDisplay(cmd, slot, frame);
+}
+
+// Copies rows of the depth of the frame to bandDepth, in which all other rows are empty.
+void Renderer::State::recordBandDepth(VkCommandBuffer cmd, uint32_t firstRow, uint32_t endRow)
+{
+    constexpr VkImageAspectFlags aspect = VK_IMAGE_ASPECT_DEPTH_BIT;
+    const auto [width, height] = options.size;
+    if (!bandDepth.image.get())
+        bandDepth = gpu::createImage(
+            context.device(), "depth of a band", VK_FORMAT_D32_SFLOAT, width, height,
+            VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, aspect);
+    constexpr ImageAccess read{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_NONE,
+                               VK_IMAGE_LAYOUT_UNDEFINED}; // by the band before
+    const VkImage from = targets.depth.image.get(), to = bandDepth.image.get();
+    transition(cmd, from, computeRead, transferRead, aspect);
+    transition(cmd, to, read, transferWrite, aspect);
+    const VkClearDepthStencilValue empty{clearDepth, 0};
+    const VkImageSubresourceRange all{aspect, 0, 1, 0, 1};
+    vkCmdClearDepthStencilImage(cmd, to, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &empty, 1, &all);
+    transition(cmd, to, transferWrite, transferWrite, aspect);
+    const VkImageCopy rows{.srcSubresource = {aspect, 0, 0, 1},
+                           .srcOffset = {0, int32_t(firstRow), 0},
+                           .dstSubresource = {aspect, 0, 0, 1},
+                           .dstOffset = {0, int32_t(firstRow), 0},
+                           .extent = {width, endRow - firstRow, 1}};
+    vkCmdCopyImage(cmd, from, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to,
+                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &rows);
+    transition(cmd, from, transferRead, computeRead, aspect);
+    transition(cmd, to, transferWrite, computeRead, aspect);
 }
 
 void Renderer::recordBruteRect(VkCommandBuffer cmd, const FrameOptions& frame, const VkRect2D& rect)
@@ -677,6 +733,11 @@ CndLightingFrame Renderer::lightingFrame(uint32_t slot, const FrameOptions& fram
 CndLightingStats Renderer::lightingStats(uint32_t slot) const
 {
     return finishedStats(state_->slotViews[slot]->stats(slot));
+}
+
+CndExposureStats Renderer::exposureStats(uint32_t slot) const
+{
+    return finishedStats(state_->exposure.stats(slot));
 }
 
 std::vector<CndPassPlan> Renderer::State::plan(uint32_t slot, const FrameStats& stats) const
@@ -736,7 +797,7 @@ FrameStats Renderer::stats(uint32_t slot) const
                 out.stamps += types - 1;
             }
     }
-    out.exposure = finishedStats(state_->exposure.stats(slot));
+    out.exposure = exposureStats(slot);
     if (!state_->unbloomed[slot] &&
         state_->bloom->timer().read(slot, rows.data(), count) == CND_SUCCESS)
         addModule(FramePart::Rest, rows.data(), count);

@@ -155,11 +155,15 @@ public:
     // Records a whole frame. The GPU must have finished the slot's previous frame. Radiance and
     // display image end in TRANSFER_SRC_OPTIMAL, visible to transfers.
     void record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& options);
-    // Record a frame in slot 0 in pieces, for checks that spread it over many submissions:
-    // recordUnlit the G-buffer and the environment, recordBruteRect lighting by brute force of a
-    // rectangle that overlaps no other, and recordBruteEnd the end, which leaves the radiance, but
-    // not the display image, as record() does.
-    void recordUnlit(VkCommandBuffer cmd, const FrameOptions& options);
+    // Record a frame in pieces, which may be spread over many submissions: recordUnlit the G-buffer
+    // and the environment. Then either recordBand lights rows, from the top to the bottom, and ends
+    // the frame as record() does with the last row. It needs no heat map and no influence by error.
+    // Only the exposure of its slot's statistics is that of the frame.
+    // Or, for checks, in slot 0: recordBruteRect lights a rectangle that overlaps no other by brute
+    // force, and recordBruteEnd leaves the radiance, but not the display image, as record() does.
+    void recordUnlit(VkCommandBuffer cmd, const FrameOptions& options, uint32_t slot = 0);
+    void recordBand(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& options,
+                    uint32_t firstRow, uint32_t endRow);
     void recordBruteRect(VkCommandBuffer cmd, const FrameOptions& options, const VkRect2D& rect);
     void recordBruteEnd(VkCommandBuffer cmd);
     // Between those calls: sets the radiance to 0.
@@ -174,8 +178,10 @@ public:
 
     // Statistics of the last frame recorded in `slot`, which the GPU must have finished.
     FrameStats stats(uint32_t slot) const;
-    // Statistics of the last lighting recorded in `slot`, which the GPU must have finished.
+    // Statistics of the last lighting recorded in `slot`, which the GPU must have finished, and of
+    // the last exposure.
     CndLightingStats lightingStats(uint32_t slot) const;
+    CndExposureStats exposureStats(uint32_t slot) const;
 
     const gpu::Image& radiance() const; // R32G32B32A32_SFLOAT, cd/m^2
     const gpu::Image& display() const;  // R8G8B8A8_UNORM, sRGB-encoded

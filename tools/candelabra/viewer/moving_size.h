@@ -44,6 +44,7 @@ public:
     void drew(bool lit);
 
     bool isHalf() const { return half_; }
+    bool isSlow() const { return slow_; } // frames at full size take longer than slowFrame
 
 private:
     uint32_t litFrames_ = 0; // how many frames in a row were lit

@@ -79,6 +79,13 @@ void Screen::waitForSlot()
         window.poll();
 }
 
+void Screen::waitForAll()
+{
+    for (uint32_t slot = 0; slot < slotCount; ++slot)
+        while (!ring.waitFor(slot, slowFrame) && !window.wantsToClose())
+            window.poll();
+}
+
 void Screen::draw(const std::function<void()>& widgets)
 {
     fit();

@@ -38,6 +38,8 @@ public:
     // Handles events until the GPU has finished the previous frame of the next slot, or until the
     // user closes the window. So a slow frame does not keep the window from reacting.
     void waitForSlot();
+    // The same for the frames of all slots.
+    void waitForAll();
     // Draws a frame without a scene: what `widgets` draws with ImGui, on dark grey.
     void draw(const std::function<void()>& widgets);
 

@@ -54,7 +54,8 @@ public:
 
     bool isFresh() const { return !drawnSince_; } // no frame was drawn since the last change
     bool isComplete() const { return !next(); }
-    uint32_t summed() const { return summed_; } // samples in the sum so far
+    uint64_t version() const { return version_; } // another one after each change
+    uint32_t summed() const { return summed_; }   // samples in the sum so far
     // Tells whether the slot's last frame shows the picture as it was in the last call of show(),
     // and whether both sides of a wipe are in it.
     bool isCurrent(uint32_t slot) const { return drawnIn_[slot] == version_; }

@@ -35,6 +35,10 @@ constexpr ImageAccess shown{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, 0,
 // cursor blinks in a field.
 constexpr double widgetTime = 0.05;
 
+// Time in s that a piece of a picture is to take (Viewer::Picture).
+constexpr double pieceTime = 0.05;
+using Clock = std::chrono::steady_clock;
+
 // Blits the columns first .. end - 1 of the window's image, which has the size `window`, from the
 // display image, which is scaled up if it is smaller. A copy would not do, because the window's
 // format may have another order of channels.
@@ -211,8 +215,16 @@ void Viewer::forgetFrames()
 {
     figures_.passes.clear();
     recorded_ = {};
-    still_.change();
+    dropPicture();
     resetExposure_ = true;
+}
+
+// Begins the picture again, with renderers that have nothing to show yet.
+void Viewer::dropPicture()
+{
+    still_.change();
+    picture_.reset();
+    hasPicture_ = false;
 }
 
 void Viewer::rebuild(uint32_t wanted)
@@ -268,25 +280,27 @@ void Viewer::fitToWindow()
             other_->resize(wanted);
         recorded_ = {};
         figures_.passes.clear();
-        still_.change();
+        dropPicture();
         spdlog::debug("picture: {}x{} pixels", wanted.width, wanted.height);
     }
 }
 
 void Viewer::collectStats(const FrameRing::Frame& frame)
 {
-    if (!frame.reused || !recorded_[frame.slot])
+    if (!frame.reused || recorded_[frame.slot] == Recorded::Nothing)
         return;
-    FrameStats stats = renderer_->stats(frame.slot);
-    figures_.passes.push_back(std::move(stats.passes));
-    while (figures_.passes.size() > panelFrames)
-        figures_.passes.pop_front();
-    if (stats.lit)
-        figures_.lighting = stats.lighting;
-    figures_.exposure = stats.exposure;
-    float ev = evLeft(stats.exposure);
+    if (recorded_[frame.slot] == Recorded::Picture) {
+        FrameStats stats = renderer_->stats(frame.slot);
+        figures_.passes.push_back(std::move(stats.passes));
+        while (figures_.passes.size() > panelFrames)
+            figures_.passes.pop_front();
+        if (stats.lit)
+            figures_.lighting = stats.lighting;
+    }
+    figures_.exposure = renderer_->exposureStats(frame.slot);
+    float ev = evLeft(figures_.exposure);
     if (right() && still_.hasTwoSides(frame.slot))
-        ev = std::max(std::abs(ev), std::abs(evLeft(right()->stats(frame.slot).exposure)));
+        ev = std::max(std::abs(ev), std::abs(evLeft(right()->exposureStats(frame.slot))));
     still_.measured(frame.slot, ev);
 }
 
@@ -348,29 +362,117 @@ PictureSettings Viewer::pictureSettings() const
     return out;
 }
 
-void Viewer::recordPicture(const FrameRing::Frame& frame, double seconds, FrameSample sample)
+void Viewer::beginPicture(FrameSample sample)
 {
-    const bool sums = sample.count > 1;
-    const auto record = [&](Renderer& renderer, FrameOptions options) {
-        options.deltaTime = float(seconds);
-        if (sums && isSummed(options)) { // the same picture as that of `render --aa`
-            options.sample = sample;
-            options.resetExposure = true;
-            options.ditherSeed = 0;
+    const auto optionsOf = [&](const Shading& shading) {
+        FrameOptions out = shading.in(panel_.frame);
+        out.deltaTime = float(pictureTime_);
+        if (sample.count > 1 && isSummed(out)) { // the same picture as that of `render --aa`
+            out.sample = sample;
+            out.resetExposure = true;
+            out.ditherSeed = 0;
         }
-        renderer.record(frame.cmd, frame.slot, options);
+        return out;
     };
     FrameOptions& options = panel_.frame;
     options.resetExposure = std::exchange(resetExposure_, false);
     ++options.ditherSeed; // dither noise that changes every frame is less visible
-    record(*renderer_, shownLeft_.in(options));
+    picture_ =
+        Picture{.sample = sample, .left = optionsOf(shownLeft_), .version = still_.version()};
     if (right())
-        record(*right(), shownRight_.in(options));
-    recorded_[frame.slot] = true;
+        picture_->right = optionsOf(shownRight_);
+    pictureTime_ = 0;
+}
+
+// Tells whether a picture that begins now is drawn in pieces: if it takes long and an earlier
+// one can be shown meanwhile. Pictures that reuse the lit image take less long.
+bool Viewer::drawsInPieces(const FrameSample& sample) const
+{
+    const auto can = [](const FrameOptions& frame, const Shading& shading) {
+        return isSummed(shading.in(frame)); // so that no piece needs what another one finds
+    };
+    return movingSize_.isSlow() && hasPicture_ && !options_.frames &&
+           drawnSize() == swapchain_.size() && (sample.count > 1 || still_.isFresh()) &&
+           can(panel_.frame, shownLeft_) && (!right() || can(panel_.frame, shownRight_));
+}
+
+void Viewer::recordPicture(const FrameRing::Frame& frame)
+{
+    renderer_->record(frame.cmd, frame.slot, picture_->left);
+    if (right())
+        right()->record(frame.cmd, frame.slot, *picture_->right);
+    recorded_[frame.slot] = Recorded::Picture;
+    endPicture(frame);
+}
+
+// Records the next piece of the picture. Returns whether it was the last one.
+bool Viewer::recordPiece(const FrameRing::Frame& frame)
+{
+    Picture& p = *picture_;
+    const uint32_t height = renderer_->size().height;
+    const uint32_t first = p.row.value_or(0), end = std::min(first + bandRows_, height);
+    const auto record = [&](Renderer& renderer, const FrameOptions& options) {
+        if (p.row)
+            renderer.recordBand(frame.cmd, frame.slot, options, first, end);
+        else
+            renderer.recordUnlit(frame.cmd, options, frame.slot);
+    };
+    record(*renderer_, p.left);
+    if (right())
+        record(*right(), *p.right);
+    const bool last = p.row && end == height; // which also ends the picture
+    bandDrawn_ = p.row && !last ? end - first : 0;
+    p.row = p.row ? end : 0;
+    if (!last)
+        return false;
+    recorded_[frame.slot] = Recorded::LastPiece;
+    endPicture(frame);
+    return true;
+}
+
+void Viewer::endPicture(const FrameRing::Frame& frame)
+{
+    const bool sums = picture_->sample.count > 1;
     movingSize_.drew(drawnSize() == swapchain_.size() && (sums || still_.isFresh()));
-    still_.drawn(frame.slot);
+    if (picture_->version == still_.version())
+        still_.drawn(frame.slot);
+    else // something has changed since it began
+        still_.forget(frame.slot);
+    picture_.reset();
+    hasPicture_ = true;
     settling_ = panelSettles;
     ++figures_.frames;
+}
+
+// Records what the frame draws of the picture: all, a piece or nothing.
+void Viewer::recordNext(const FrameRing::Frame& frame)
+{
+    // A sample of what has changed since is of no use. A picture that answers the user is, because
+    // another one follows each change.
+    if (picture_ && ((picture_->sample.count > 1 && picture_->version != still_.version()) ||
+                     picture_->right.has_value() != (right() != nullptr)))
+        picture_.reset();
+    const bool complete = still_.isComplete();
+    if (!std::exchange(complete_, complete) && complete)
+        spdlog::debug("picture: complete after {}", counted(figures_.frames, "frame"));
+    recorded_[frame.slot] = Recorded::Nothing;
+    if (complete) {
+        still_.forget(frame.slot);
+        movingSize_.drew(false);
+        ++panelOnly_;
+        settling_ -= std::min(settling_, 1u);
+        return;
+    }
+    const FrameSample sample = *still_.next();
+    const bool pieces = picture_ || drawsInPieces(sample);
+    // The panel alone is drawn soon. So an event is answered before the next piece.
+    answered_ = std::exchange(handled_, false) && pieces && !answered_;
+    if (!picture_ && !answered_)
+        beginPicture(sample);
+    if (pieces && (answered_ || !recordPiece(frame)))
+        still_.forget(frame.slot);
+    else if (!pieces)
+        recordPicture(frame);
 }
 
 void Viewer::drawFrame(double seconds, bool screenshot)
@@ -389,23 +491,14 @@ void Viewer::drawFrame(double seconds, bool screenshot)
     if (loader_.busy())
         drawProgress(loader_.state(), true);
     still_.show(pictureSettings());
-    const std::optional<FrameSample> sample = still_.next();
-    if (std::exchange(pictured_, sample.has_value()) && !sample)
-        spdlog::debug("picture: complete after {}", counted(figures_.frames, "frame"));
-    if (sample) {
-        recordPicture(frame, seconds, *sample);
-    } else {
-        recorded_[frame.slot] = false;
-        still_.forget(frame.slot);
-        movingSize_.drew(false);
-        ++panelOnly_;
-        settling_ -= std::min(settling_, 1u);
-    }
+    pictureTime_ += seconds;
+    recordNext(frame);
     recordWindow(frame.cmd, target);
     gpu::Buffer pixels;
     if (screenshot)
         pixels = recordScreenshot(frame.cmd, target.image);
     ring_.submit(target.acquired, target.presented);
+    submitted_ = Clock::now();
     screen_.present(target);
     if (screenshot) {
         ring_.wait();
@@ -421,8 +514,8 @@ void Viewer::doRequests()
         saveScene();
     if (!prepared_) // what is drawn now is not what the user wants to be saved or picked
         return;
-    // While samples are summed, the radiance image is that of the last one.
-    const bool sums = still_.summed() && !still_.isComplete();
+    // While samples are summed or a picture is lit, the radiance image is not that of the picture.
+    const bool sums = picture_ || (still_.summed() && !still_.isComplete());
     if (saveAs_ && !(sums && std::string_view(saveAs_) == ".exr"))
         saveImage(std::exchange(saveAs_, nullptr));
     if (const auto pixel = std::exchange(pick_, std::nullopt))
@@ -456,7 +549,14 @@ void Viewer::advance(double seconds, double wall)
     const bool editedBefore = std::exchange(edited_, panel_.editor.changed);
     const Camera camera = camera_.camera();
     const bool moves = std::exchange(seenFrom_, camera) != camera || (edited_ && editedBefore);
-    movingSize_.advance(wall, moves, panel_.whileMoving);
+    moves_ |= moves;
+    pictureWall_ += wall;
+    if (!picture_) {
+        movingSize_.advance(pictureWall_, std::exchange(moves_, false), panel_.whileMoving);
+        if (!complete_)
+            figures_.wallMs = pictureWall_ * 1e3;
+        pictureWall_ = 0;
+    }
     noteEdits();
     const uint32_t wanted = panel_.wantedLights;
     const bool builds = loader_.busy() && loadingKept_ == Kept::Camera && wanted == loadingLights_;
@@ -467,8 +567,6 @@ void Viewer::advance(double seconds, double wall)
     figures_.scene = scene_.name;
     figures_.lights = uint32_t(scene_.lights.size());
     figures_.moving = !scene_.lightMotions.empty();
-    if (pictured_)
-        figures_.wallMs = wall * 1e3;
     figures_.speed = camera_.speed();
     figures_.size = swapchain_.size();
     figures_.drawnSize = renderer_->size();
@@ -476,14 +574,28 @@ void Viewer::advance(double seconds, double wall)
     figures_.complete = still_.isComplete();
 }
 
+// Waits for the GPU and handles events meanwhile. Of pieces, one is drawn at a time, so that the
+// answer to an event comes next. Its time decides how many rows the following ones have.
+void Viewer::waitForGpu()
+{
+    if (!movingSize_.isSlow())
+        return screen_.waitForSlot();
+    screen_.waitForAll();
+    if (!bandDrawn_)
+        return;
+    const double took = std::chrono::duration<double>(Clock::now() - submitted_).count();
+    const double rows = bandDrawn_ * std::clamp(pieceTime / took, 0.5, 2.0);
+    bandRows_ = std::max(uint32_t(rows) / 8 * 8, 8u);
+    bandDrawn_ = 0;
+}
+
 void Viewer::run()
 {
-    using Clock = std::chrono::steady_clock;
     Clock::time_point last = Clock::now();
     for (uint32_t i = 0; !window_.wantsToClose() && (!options_.frames || i < options_.frames);
          ++i) {
         const bool waited = awaitEvents();
-        screen_.waitForSlot();
+        waitForGpu();
         const PixelSize size = window_.framebufferSize();
         if (!size.width || !size.height) { // minimised
             window_.wait();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -115,6 +116,7 @@ private:
     void rebuild(uint32_t wanted);
     // Forgets what was measured of the frames of the renderer before.
     void forgetFrames();
+    void dropPicture();
     // Tells whether the scene is being built with another number of lights. Its lights cannot be
     // edited meanwhile, because the edits would be lost.
     bool rebuilds() const;
@@ -154,7 +156,13 @@ private:
     // since the last call.
     void advance(double seconds, double wall);
     void drawFrame(double seconds, bool screenshot);
-    void recordPicture(const FrameRing::Frame& frame, double seconds, FrameSample sample);
+    void recordNext(const FrameRing::Frame& frame);
+    void beginPicture(FrameSample sample);
+    void recordPicture(const FrameRing::Frame& frame);
+    bool recordPiece(const FrameRing::Frame& frame);
+    void endPicture(const FrameRing::Frame& frame);
+    bool drawsInPieces(const FrameSample& sample) const;
+    void waitForGpu();
     void doRequests();
     void recordWindow(VkCommandBuffer cmd, const Swapchain::Target& target);
     gpu::Buffer recordScreenshot(VkCommandBuffer cmd, VkImage image) const;
@@ -188,17 +196,37 @@ private:
     PanelFigures figures_;
     StillPicture still_{Screen::slotCount};
     MovingSize movingSize_;
-    Camera seenFrom_;       // the camera of the frame before
-    bool edited_ = false;   // lights were edited before that frame
-    bool pictured_ = false; // that frame drew the picture, and not the panel alone
+    // The picture that is being drawn. On slow devices it is drawn in pieces, a submission each, so
+    // that input is answered meanwhile: first the surfaces, then the light of some rows at a time.
+    struct Picture {
+        FrameSample sample;
+        FrameOptions left;
+        std::optional<FrameOptions> right;
+        uint64_t version = 0;          // StillPicture::version() when it began
+        std::optional<uint32_t> row{}; // the first row without light; empty: no surfaces yet
+    };
+    std::optional<Picture> picture_;
+    uint32_t bandRows_ = 64; // rows of a piece, so many that it takes about pieceTime
+    uint32_t bandDrawn_ = 0; // rows of the piece that the GPU draws now
+    std::chrono::steady_clock::time_point submitted_; // the last frame
+    bool hasPicture_ = false; // the display images of the renderers have a picture
+    bool handled_ = false;    // an event was handled since the last frame
+    bool answered_ = false;   // the last frame drew the panel alone to answer an event
+    double pictureTime_ = 0;  // s since the last picture began, as moveCamera counts them
+    double pictureWall_ = 0;  // the same by the clock
+    bool moves_ = false;      // camera or lights have moved since then
+    Camera seenFrom_;         // the camera of the frame before
+    bool edited_ = false;     // lights were edited before that frame
+    bool complete_ = false;   // the picture was complete
     // The number of frames that are still drawn before the viewer waits for events. An event may
     // change the panel, or through it the scene, only one or two frames after the frame that
     // handled it.
     uint32_t settling_ = 0;
     uint64_t panelOnly_ = 0; // number of frames that drew the panel alone
-    // Slots in which the present renderer has recorded a frame at its present size: their
-    // statistics can be read.
-    std::array<bool, Screen::slotCount> recorded_{};
+    // Slots in which the present renderer has recorded a picture at its present size, or the last
+    // piece of one, of which only the exposure can be read.
+    enum class Recorded { Nothing, Picture, LastPiece };
+    std::array<Recorded, Screen::slotCount> recorded_{};
     // About the scene that is being loaded: PanelState::wantedLights if it is the present scene
     // with another number of lights (Kept::Camera), what stays of the present scene, and how the
     // new renderer can shade.

@@ -698,7 +698,7 @@ void Viewer::pick(PixelPosition pixel)
     figures_.picked = pickPixel(context_, *renderer_, scene_, frame, pixel);
     renderer_->lightsChanged(); // pickPixel has drawn the lights one at a time
     recorded_ = {};
-    still_.change();
+    dropPicture();
     spdlog::info("{}", pickText(*figures_.picked, scene_));
 }
 
@@ -708,6 +708,7 @@ void Viewer::moveCamera(double seconds)
     while (!window_.events.empty() && handle(window_.events.front())) {
         window_.events.pop_front();
         settling_ = panelSettles;
+        handled_ = true;
     }
     if (std::exchange(panel_.editor.wantsNew, false))
         onAction(KeyAction::AddLight);

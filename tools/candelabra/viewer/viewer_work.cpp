@@ -218,6 +218,7 @@ void Viewer::useMade()
     } else if (panel_.wipe.on) {
         other_ = std::move(made);
         shownRight_ = madeShading_;
+        dropPicture();
     }
 }
 
