@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shows in false colours, with a legend, what the lights cost each pixel.
+// Shows in false colours, with a legend, what the lights cost each pixel. Numbers of lights have the
+// scale in which 99% of the pixels with a surface are. So a few pixels do not make all others dark.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/heat_map.h"
@@ -15,23 +16,72 @@ layout(scalar, binding = HEAT_MAP_COLOURS) readonly buffer Colours
 {
     uint colours[];
 };
+layout(scalar, binding = HEAT_MAP_COUNTS) buffer Counts
+{
+    uint counts[HEAT_MAP_SCALES];
+};
 
-uint colourOf(vec4 pairs)
+bool countsLights()
+{
+    return params.which == HEAT_MAP_LISTED || params.which == HEAT_MAP_EVALUATED;
+}
+
+float lightsOf(vec4 pairs)
+{
+    return params.which == HEAT_MAP_LISTED ? pairs.x : pairs.y;
+}
+
+// The number of lights at the end of a scale.
+float mostOf(uint scale)
+{
+    return float(colours[HEAT_MAP_STEPS + HEAT_MAP_CLASSES + scale]);
+}
+
+void count(vec4 pairs)
+{
+    if (pairs.w == 0.0) // no surface
+        return;
+    uint scale = 0u;
+    while (scale + 1u < HEAT_MAP_SCALES && lightsOf(pairs) > mostOf(scale))
+        ++scale;
+    atomicAdd(counts[scale], 1u);
+}
+
+uint scaleOfPicture()
+{
+    if (!countsLights())
+        return 0u;
+    uint all = 0u, within = 0u, scale = 0u;
+    for (uint i = 0u; i < HEAT_MAP_SCALES; ++i)
+        all += counts[i];
+    for (; scale + 1u < HEAT_MAP_SCALES; ++scale) {
+        within += counts[scale];
+        if ((all - within) * 100u <= all)
+            break;
+    }
+    return scale;
+}
+
+uint colourOf(vec4 pairs, uint scale)
 {
     const uint pixelClass = uint(pairs.w);
     if (params.which == HEAT_MAP_CLASS || pixelClass == 0u) // class 0: no surface
         return HEAT_MAP_STEPS + min(pixelClass, HEAT_MAP_CLASSES - 1u);
-    const float lights = params.which == HEAT_MAP_LISTED ? pairs.x : pairs.y;
-    const float place = params.which == HEAT_MAP_EFFICIENCY
-                            ? pairs.z / max(pairs.x, 1.0)
-                            : log(1.0 + lights) / log(1.0 + HEAT_MAP_MOST);
+    const float place = params.which == HEAT_MAP_EFFICIENCY ? pairs.z / max(pairs.x, 1.0)
+                                                            : lightsOf(pairs) / mostOf(scale);
     return uint(clamp(place, 0.0, 1.0) * float(HEAT_MAP_STEPS - 1u) + 0.5);
 }
 
-// The colour of a class or, after the classes, of a pixel of the legend.
 vec4 classColour(uint index)
 {
     return unpackUnorm4x8(colours[HEAT_MAP_STEPS + index]);
+}
+
+// The colour of the legend in a column and a row from its top.
+vec4 legendColour(uint scale, uint x, uint y)
+{
+    const uvec2 size = params.legendSize;
+    return classColour(HEAT_MAP_CLASSES + HEAT_MAP_SCALES + (scale * size.y + y) * size.x + x);
 }
 
 vec4 shadowColour(vec4 shadows)
@@ -49,14 +99,18 @@ void main()
     if (any(greaterThanEqual(pixel, params.size)))
         return;
     const vec4 pairs = imageLoad(pairImage, ivec2(pixel));
+    if (params.counts != 0u) {
+        count(pairs);
+        return;
+    }
+    const uint scale = scaleOfPicture();
     const uint fromBottom = params.size.y - 1u - pixel.y;
     vec4 colour;
     if (pixel.x < params.legendSize.x && fromBottom < params.legendSize.y)
-        colour = classColour(HEAT_MAP_CLASSES +
-                             (params.legendSize.y - 1u - fromBottom) * params.legendSize.x + pixel.x);
+        colour = legendColour(scale, pixel.x, params.legendSize.y - 1u - fromBottom);
     else if (params.which == HEAT_MAP_SHADOW)
         colour = shadowColour(pairs);
     else
-        colour = unpackUnorm4x8(colours[colourOf(pairs)]);
+        colour = unpackUnorm4x8(colours[colourOf(pairs, scale)]);
     imageStore(displayImage, ivec2(pixel), colour);
 }

@@ -12,14 +12,17 @@ GPU_BEGIN
 const uint HEAT_MAP_GROUP = 8u; // x and y
 const uint HEAT_MAP_PAIRS = 0u;
 const uint HEAT_MAP_DISPLAY = 1u;
-// Packed RGBA8: the colours of the map, one colour per class, the pixels of the legend row by row.
-// For HEAT_MAP_SHADOW the classes are: no light is asked for; lights that are seen wholly, in part
-// and not at all, whose colours are mixed by their shares.
+// Packed RGBA8: the colours of the map and one colour per class. Then the numbers of lights at the
+// ends of the scales, and the pixels of the legends row by row, one legend per scale. Maps that do
+// not count lights have one legend alone. For HEAT_MAP_SHADOW the classes are: no light is asked
+// for; lights that are seen wholly, in part and not at all, whose colours are mixed by their
+// shares.
 const uint HEAT_MAP_COLOURS = 2u;
 const uint HEAT_MAP_STEPS = 256u; // colours of the map
 const uint HEAT_MAP_CLASSES = 4u;
-// The number of lights at the end of the map, which is logarithmic in 1 + lights.
-const float HEAT_MAP_MOST = 1000.0f;
+const uint HEAT_MAP_SCALES = 18u;
+// How many pixels with a surface are within each scale, and not within the one before.
+const uint HEAT_MAP_COUNTS = 3u;
 
 // The program's enum HeatMap.
 const uint HEAT_MAP_LISTED = 1u;
@@ -31,8 +34,9 @@ struct HeatMapParams {
     uvec2 size;
     uvec2 legendSize; // drawn at the lower left
     uint which;       // HEAT_MAP_*
+    uint counts;      // 1: counts pixels and paints nothing
 };
-GPU_SIZE(HeatMapParams, 20)
+GPU_SIZE(HeatMapParams, 24)
 
 GPU_END
 

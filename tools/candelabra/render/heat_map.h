@@ -21,6 +21,11 @@ enum class HeatMap : uint32_t {
 };
 constexpr int heatMapCount = 6; // including None
 
+// Returns the number of lights at the end of a scale, for 0 <= scale < gpu::HEAT_MAP_SCALES. The
+// map of a frame has the first scale in which 99% of its pixels with a surface are, or else the
+// last.
+uint32_t heatMapMost(uint32_t scale);
+
 class HeatMapPass
 {
 public:
@@ -47,6 +52,7 @@ private:
     gpu::Kernel<gpu::HeatMapParams> kernel_;
     gpu::Bindings sets_;
     gpu::Image pairs_;
+    gpu::Buffer counts_;
     Colours colours_[heatMapCount];
 };
 

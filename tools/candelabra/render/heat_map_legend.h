@@ -9,7 +9,8 @@
 namespace candelabra::app
 {
 
-// Returns the legend for a picture of `size` pixels. `which` must not be HeatMap::None.
-Legend heatMapLegend(HeatMap which, PixelSize size);
+// Returns the legend for a picture of `size` pixels. `which` must not be HeatMap::None. `most`: the
+// number of lights at the end of the scale, if the map counts lights; all have the same size.
+Legend heatMapLegend(HeatMap which, PixelSize size, uint32_t most);
 
 } // namespace candelabra::app

@@ -32,7 +32,7 @@ uint16_t glyphOf(char c)
         return digits[size_t(c - '0')];
     if (std::isalpha(u))
         return letters[size_t(std::toupper(u) - 'A')];
-    return c == '.' ? 000002 : c == ',' ? 000024 : c == '%' ? 051245 : 0;
+    return c == '.' ? 000002 : c == ',' ? 000024 : c == '%' ? 051245 : c == '+' ? 002720 : 0;
 }
 
 class Canvas
@@ -104,9 +104,7 @@ uint32_t packed(glm::vec3 srgb)
 Legend barLegend(const std::string& title, const std::vector<LegendMark>& marks, uint32_t scale)
 {
     const uint32_t barTop = margin + glyphHeight + 2, textTop = barTop + barHeight + 2;
-    uint32_t width = std::max(barWidth, widthOf(title));
-    for (const LegendMark& mark : marks)
-        width = std::max(width, uint32_t(mark.place * (barWidth - 1)) + widthOf(mark.text));
+    const uint32_t width = std::max(barWidth, widthOf(title));
     Canvas canvas(width + 2 * margin, textTop + glyphHeight + margin, scale);
     canvas.text(margin, margin, title);
     for (uint32_t x = 0; x < barWidth; ++x)
@@ -115,7 +113,7 @@ Legend barLegend(const std::string& title, const std::vector<LegendMark>& marks,
     for (const LegendMark& mark : marks) {
         const uint32_t x = margin + uint32_t(std::lround(mark.place * (barWidth - 1)));
         canvas.dot(x, barTop + barHeight, ink);
-        canvas.text(x, textTop, mark.text);
+        canvas.text(std::min(x, margin + barWidth - widthOf(mark.text)), textTop, mark.text);
     }
     return canvas.take();
 }
