@@ -33,7 +33,13 @@ window=$(timeout 120 xdotool search --sync --onlyvisible --name '^candelabra$' |
 xdotool windowfocus --sync $window
 complete "F2 lists keys"
 save # 1
-xdotool key n period period period Up
+xdotool mousemove --window $window 160 185 key n
+logged "^light 40 added"
+# By its handle y, upwards.
+xdotool mousemove --window $window 160 145 mousedown 1 mousemove --window $window 160 105 mouseup 1
+logged "^light 40 moved"
+xdotool key period period period Up
+logged "^light 40 moved" 2
 complete "^light 40 moved"
 save # 2: a light in front of the camera
 xdotool key Delete

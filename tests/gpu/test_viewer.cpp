@@ -107,6 +107,15 @@ TEST(Viewer, IsDrivenByKeysAndMouse)
     EXPECT_EQ(shots[8].width, 260);
     EXPECT_EQ(shots[8].height, 180);
 
+    // The mouse dragged the new light up, and nowhere else.
+    std::smatch from, to;
+    const std::string place = " sphere at (.*), (.*), (.*) m, ";
+    ASSERT_TRUE(std::regex_search(err, from, std::regex("light 40 added:" + place))) << err;
+    ASSERT_TRUE(std::regex_search(err, to, std::regex("light 40 moved:" + place))) << err;
+    EXPECT_EQ(from[1], to[1]);
+    EXPECT_GT(std::stod(to[2]), std::stod(from[2]) + 0.1);
+    EXPECT_EQ(from[3], to[3]);
+
     // A pixel was picked: it shows a surface, and the sum of its lights is the pixel.
     const size_t at = err.find("pixel 130,150 at (");
     ASSERT_NE(at, std::string::npos) << err;
@@ -143,7 +152,8 @@ std::string pressed(const KeyBinding& binding)
         {GLFW_KEY_MINUS, "minus"},   {GLFW_KEY_EQUAL, "equal"},
         {GLFW_KEY_ESCAPE, "Escape"}, {GLFW_KEY_LEFT_BRACKET, "bracketleft"},
         {GLFW_KEY_F1, "F1"},         {GLFW_KEY_RIGHT_BRACKET, "bracketright"},
-        {GLFW_KEY_F2, "F2"},         {GLFW_KEY_F5, "F5"}};
+        {GLFW_KEY_F2, "F2"},         {GLFW_KEY_F5, "F5"},
+        {GLFW_KEY_F11, "F11"},       {GLFW_KEY_HOME, "Home"}};
     std::string out = "key ";
     if (binding.modifiers & GLFW_MOD_CONTROL)
         out += "ctrl+";
@@ -172,12 +182,14 @@ std::string randomInputs(uint32_t seed)
     std::mt19937 random(seed);
     const auto below = [&](uint32_t n) { return uint32_t(random() % n); };
     const std::vector<KeyBinding> bindings = allBindings();
-    const char* const typed[] = {"5", "7", "BackSpace", "Return", "Home", "ctrl+a"};
-    // Counts the presses of slow keys. Two presses of each are enough.
+    const char* const typed[] = {"5", "7", "BackSpace", "Return", "End", "ctrl+a"};
+    // Counts the presses of slow keys, and of those after which much is in view. Two presses of
+    // each are enough.
     std::map<KeyAction, int> slow{{KeyAction::FewerLights, 0},  {KeyAction::MoreLights, 0},
                                   {KeyAction::SaveRadiance, 0}, {KeyAction::SaveScene, 0},
                                   {KeyAction::ListLights, 0},   {KeyAction::Compare, 0},
-                                  {KeyAction::NextSpecular, 0}, {KeyAction::Culling, 0}};
+                                  {KeyAction::NextSpecular, 0}, {KeyAction::Culling, 0},
+                                  {KeyAction::Home, 0},         {KeyAction::FrameScene, 0}};
     std::string out;
     for (int i = 0; i < 500;) {
         const std::string place = std::to_string(below(240)) + " " + std::to_string(below(160));
@@ -203,7 +215,8 @@ std::string randomInputs(uint32_t seed)
             break;
         default: {
             const KeyBinding& binding = bindings[below(uint32_t(bindings.size()))];
-            if (binding.action == KeyAction::Quit || binding.action == KeyAction::SaveImage ||
+            if (binding.action == KeyAction::Quit || binding.action == KeyAction::FullScreen ||
+                binding.action == KeyAction::SaveImage ||
                 (slow.contains(binding.action) && ++slow.at(binding.action) > 2))
                 --i; // another one in its place
             else
@@ -239,7 +252,9 @@ constexpr KeyCheck keyChecks[] = {
     {KeyAction::Undo, "^undone: light [0-9]+ has another size$"},
     {KeyAction::Undo, "^undone: light [0-9]+ has another size$"},
     {KeyAction::Redo, "^redone: light [0-9]+ has another size$"},
-    {KeyAction::Frame, "^light [0-9]+ fills the view$"},
+    {KeyAction::Frame, "^light [0-9]+ is framed$"},
+    {KeyAction::Home, "^at the camera of the beginning$"},
+    {KeyAction::Quit, "^edits of lights are not saved$"},
     {KeyAction::RemoveLight, "^light [0-9]+ removed$"},
     {KeyAction::Orbit, "^the camera orbits the point ahead$", 2},
     {KeyAction::Orbit, "^the camera flies$"},
@@ -267,6 +282,8 @@ constexpr KeyCheck keyChecks[] = {
     {KeyAction::SaveImage, "^wrote candelabra-[0-9]+[.]png$"},
     {KeyAction::SaveRadiance, "^wrote candelabra-[0-9]+[.]exr$"},
     {KeyAction::SaveScene, "^wrote candelabra-[0-9]+[.]json$"},
+    {KeyAction::FullScreen, "^full screen"},
+    {KeyAction::FullScreen, "^full screen"},
     {KeyAction::MoreLights, "^building hall with "},
     {KeyAction::FewerLights, "^building hall with "},
     // While the scene is built with more lights, the present ones cannot be edited.

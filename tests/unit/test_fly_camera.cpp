@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "viewer/fly_camera.h"
+#include "viewer/selection.h"
 
 using namespace candelabra::app;
 
@@ -97,4 +98,22 @@ TEST(FlyCamera, OrbitKeepsThePointInTheMiddle)
     camera.fly();
     camera.update({.look = {50, 0}}, 0.1);
     expectNear(camera.camera().position, place);
+}
+
+// A camera that is fitted to something behind a wall comes before the wall.
+TEST(BeforeOccluders, StandsWhereNothingHidesTheFront)
+{
+    Scene scene;
+    scene.materials.emplace_back();
+    scene.analyticObjects.push_back({.type = AnalyticObject::Type::Ball, .point = {0, 0, 5}});
+    RayCaster rays(scene);
+    Camera camera;
+    camera.position = {0, 0, 20};
+    const Camera before = beforeOccluders(camera, {0, 0, 1}, rays);
+    EXPECT_GT(before.position.z, 1 + before.nearPlane);
+    EXPECT_LT(before.position.z, 4); // where the ball begins
+    EXPECT_EQ(before.forward, camera.forward);
+    camera.position = {0, 0, 3.5}; // before the ball
+    EXPECT_EQ(beforeOccluders(camera, {0, 0, 1}, rays), camera);
+    EXPECT_EQ(beforeOccluders(camera, {9, 0, 1}, rays), camera); // nothing hides it
 }

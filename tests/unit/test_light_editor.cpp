@@ -230,4 +230,36 @@ TEST(LightHistory, HasALimit)
     EXPECT_EQ(scene.lights[0].position[0], 11); // 1 at first; ten moves cannot be undone
 }
 
+TEST(LightHistory, KnowsWhetherTheLightsAreWhatTheyWere)
+{
+    LightEditor editor;
+    Scene scene;
+    const auto state = [&] { return editor.history.state(); };
+    const uint64_t loaded = state();
+    addLight(scene, editor, {1, 2, 3});
+    const uint64_t saved = state();
+    EXPECT_NE(saved, loaded);
+    undoEdit(scene, editor);
+    EXPECT_EQ(state(), loaded);
+    redoEdit(scene, editor);
+    EXPECT_EQ(state(), saved);
+    editor.history.beginStep();
+    for (int i = 0; i < 2; ++i) { // one step
+        moveLight(scene, editor, {1, 0, 0});
+        EXPECT_NE(state(), saved);
+    }
+    undoEdit(scene, editor);
+    EXPECT_EQ(state(), saved);
+    undoEdit(scene, editor);
+    addLight(scene, editor, {1, 2, 3}); // another light in the place of the first
+    EXPECT_NE(state(), saved);
+    for (size_t i = 0; i < LightHistory::mostSteps; ++i) {
+        editor.history.beginStep();
+        moveLight(scene, editor, {1, 0, 0});
+    }
+    while (editor.history.canUndo())
+        undoEdit(scene, editor);
+    EXPECT_NE(state(), loaded); // the first step was forgotten
+}
+
 } // namespace

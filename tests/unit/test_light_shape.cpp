@@ -4,7 +4,7 @@
 
 #include "scene/light_types.h"
 #include "scene/polygons.h"
-#include "viewer/light_shape.h"
+#include "viewer/light_handles.h"
 
 using namespace candelabra;
 using namespace candelabra::app;
@@ -126,6 +126,46 @@ TEST(LightShape, IsFoundAmong100000)
     const glm::dvec2 place{200 + 7 / 3.0, 100 - 9 / 3.0}; // a pixel is 3 m wide there
     EXPECT_EQ(lightAt(lights, glm::dvec3(0), clickView(), place, 0.1, unhidden),
               uint32_t((158 + 9) * 317 + 158 + 7));
+}
+
+// What is dragged stays under the mouse, and moves along the axes of the handle only.
+TEST(LightHandles, AreFoundAndFollowTheMouse)
+{
+    Camera camera;
+    camera.forward = glm::normalize(glm::dvec3(-1, -1, -2));
+    camera.position = glm::dvec3(1, 2, 3) - 10.0 * camera.forward;
+    const Projection view(camera, clickSize);
+    const LightHandles handles{{1, 2, 3}, 2};
+    const auto middleOf = [&](uint32_t handle) {
+        glm::dvec3 sum(0);
+        const auto outline = handles.outlineOf(handle);
+        const size_t corners = outline.size() == 2 ? 2 : 4;
+        for (size_t i = 0; i < corners; ++i)
+            sum += outline[i] / double(corners);
+        return sum;
+    };
+    const auto placeOf = [&](const glm::dvec3& p) { return view.segments({p, p}).at(0); };
+    for (const uint32_t handle : LightHandles::all) {
+        const glm::dvec3 from = middleOf(handle);
+        EXPECT_EQ(handles.at(view, placeOf(from), 4), handle);
+        glm::dvec3 to = from;
+        for (int axis = 0; axis < 3; ++axis)
+            if (handle >> axis & 1)
+                to[axis] += 0.5 + 0.25 * axis;
+        const auto point = handles.pointOn(handle, view, placeOf(to));
+        ASSERT_TRUE(point) << handle;
+        // Along a line, the middle is not on the axis by rounding alone.
+        EXPECT_LT(glm::length(*point - to), 1e-9) << handle;
+    }
+    EXPECT_FALSE(handles.at(view, placeOf({1, 2, 3}) + glm::dvec2(80, 0), 4));
+    // A line that points to the camera, and a plane that is seen from its edge, stay where they
+    // are.
+    camera.forward = {0, 0, -1};
+    camera.position = {1, 2, 13};
+    const Projection straight(camera, clickSize);
+    EXPECT_FALSE(handles.pointOn(4, straight, {200, 100}));
+    EXPECT_FALSE(handles.pointOn(5, straight, {200, 100}));
+    EXPECT_TRUE(handles.pointOn(3, straight, {200, 100}));
 }
 
 } // namespace

@@ -239,6 +239,7 @@ Scene generateHall(const SceneOptions& options)
 
     Scene scene = std::move(kit.builder.scene);
     scene.background = {0.45f, 0.75f, 1.7f}; // the evening sky in the windows, cd/m^2
+    scene.interior = true;
     scene.cameras = {
         makeUprightCamera("nave", {-28.2, 2.6, 1.4}, {1, 0.035, -0.065}, glm::radians(58.0)),
         makeUprightCamera("gallery", {27.5, 9.8, -4.6}, {-1, -0.22, 0.16}, glm::radians(62.0))};

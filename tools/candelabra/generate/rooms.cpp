@@ -263,6 +263,7 @@ Scene generateRooms(const SceneOptions& options)
         furnish(kit, random, room);
 
     Scene& scene = kit.builder.scene;
+    scene.interior = true;
     scene.cameras = {
         makeUprightCamera("salon", {30.35, 1.6, 12.55}, {1, -0.13, 0.8}, glm::radians(60.0)),
         makeUprightCamera("enfilade", {5.4, 1.55, 17.3}, {1, -0.1, 0.12}, glm::radians(58.0))};

@@ -139,6 +139,11 @@ std::string threeDigits(const std::optional<double>& value)
     return value ? threeDigits(*value) : "below noise";
 }
 
+std::string written(double value)
+{
+    return value >= 999.5 && value < 1e15 ? grouped(std::llround(value)) : threeDigits(value);
+}
+
 std::string grouped(unsigned long long value)
 {
     std::string digits = std::to_string(value);

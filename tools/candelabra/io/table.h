@@ -73,6 +73,8 @@ std::string textOf(std::span<const Table> tables);
 std::string threeDigits(double value);
 // The same, or "below noise" for none.
 std::string threeDigits(const std::optional<double>& value);
+// A number as people write it: "53,740", or three significant digits below 1000.
+std::string written(double value);
 // 1234567 -> "1,234,567".
 std::string grouped(unsigned long long value);
 // "1 light", "4,000 lights": for nouns whose plural ends in s.

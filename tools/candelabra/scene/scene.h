@@ -163,7 +163,7 @@ struct Scene {
     std::vector<LightMotion> lightMotions; // empty, or one per light
     std::vector<Camera> cameras;           // at least one after loading
     size_t defaultCamera = 0;              // index of the camera that is used without a choice
-    bool interior = false;                 // an automatic camera found that it is a room
+    bool interior = false;                 // it is known to be a room
     glm::vec3 background{0};               // luminance of pixels without a surface, cd/m^2
     std::optional<SceneEnvironment> environment;
     // With automatic exposure: the EV100 to use instead, because the light of the scene is known.

@@ -30,7 +30,7 @@ void drawAndWait(Screen& screen, const std::function<void()>& widgets)
 void showUntilClosed(Screen& screen, const std::string& message)
 {
     while (!screen.window.wantsToClose())
-        drawAndWait(screen, [&] { drawFailure(message); });
+        drawAndWait(screen, [&] { drawMessage(message, "Esc closes this window."); });
 }
 
 } // namespace

@@ -23,6 +23,7 @@ enum class KeyAction {
     Orbit,
     Frame,
     FrameScene,
+    Home,
     FewerLights,
     MoreLights,
     Darker,
@@ -52,6 +53,7 @@ enum class KeyAction {
     SaveScene,
     Panel,
     Help,
+    FullScreen,
     Quit,
 };
 
@@ -79,19 +81,25 @@ inline constexpr KeyHelp keyHelp[] = {
       {KeyAction::Down, GLFW_KEY_Q},
       {KeyAction::Up, GLFW_KEY_E}}},
     {"drag, wheel", "look around; change the speed, or the distance in orbit"},
-    {"click", "select a light, or else the object there; on neither: select nothing"},
+    {"click", "select a light, or else the object there, and show its material"},
+    {"drag a handle", "move the selected light along an axis (line) or in a plane (square)"},
     {"Tab",
      "select the next light; with Shift the previous one",
      {{KeyAction::NextLight, GLFW_KEY_TAB},
       {KeyAction::PreviousLight, GLFW_KEY_TAB, GLFW_MOD_SHIFT}}},
     {"F",
-     "frame the selected light or object, or else the whole scene",
+     "frame the selected light or object where nothing hides it, or else the scene",
      {{KeyAction::Frame, GLFW_KEY_F}}},
     {"Shift+F",
-     "frame the whole scene, in the direction of the view",
+     "frame the whole scene, in the direction of the view; a room from inside",
      {{KeyAction::FrameScene, GLFW_KEY_F, GLFW_MOD_SHIFT}}},
+    {"Home",
+     "the camera of the beginning; the panel lists all cameras",
+     {{KeyAction::Home, GLFW_KEY_HOME}}},
     {"O", "orbit the point ahead, or fly again", {{KeyAction::Orbit, GLFW_KEY_O}}},
-    {"N", "add a light above the middle of the view", {{KeyAction::AddLight, GLFW_KEY_N}}},
+    {"N",
+     "add a bulb of 800 lm at the surface under the mouse",
+     {{KeyAction::AddLight, GLFW_KEY_N}}},
     {"Ctrl+D",
      "add a copy of the selected light beside it",
      {{KeyAction::DuplicateLight, GLFW_KEY_D, GLFW_MOD_CONTROL}}},
@@ -138,11 +146,13 @@ inline constexpr KeyHelp keyHelp[] = {
     {"F5",
      "save the edited lights, camera and materials (.json)",
      {{KeyAction::SaveScene, GLFW_KEY_F5}}},
-    {"F1, F2",
-     "show or hide the panel; this help",
-     {{KeyAction::Panel, GLFW_KEY_F1}, {KeyAction::Help, GLFW_KEY_F2}}},
+    {"F1, F2, F11",
+     "show or hide the panel; this help; full screen",
+     {{KeyAction::Panel, GLFW_KEY_F1},
+      {KeyAction::Help, GLFW_KEY_F2},
+      {KeyAction::FullScreen, GLFW_KEY_F11}}},
     {"Esc",
-     "in a field or list of the panel: leave it; else close this help; else quit",
+     "leave a field or list; else close this help; else quit (asks if edits are not saved)",
      {{KeyAction::Quit, GLFW_KEY_ESCAPE}}},
     {"drop a file", "open a scene (.gltf .glb .json) or an environment (.hdr .exr .pfm)"},
 };
@@ -153,7 +163,7 @@ inline constexpr KeyHelp keyHelp[] = {
 inline constexpr const char* fieldHelp =
     "Ctrl+click on a number of the panel to type one; then keys go "
     "to that field until Enter, Tab,\n"
-    "Esc or a click on the scene. F1, F2 and F5 always work.";
+    "Esc or a click on the scene. Function keys always work.";
 
 // Returns what a key does with these modifiers (GLFW_MOD_*), or null. Shift makes the camera fly
 // fast, so it is ignored if the table has the key only without it.

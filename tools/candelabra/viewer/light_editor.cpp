@@ -6,7 +6,9 @@
 #include <cstring>
 
 #include <imgui.h>
+#include <imgui_internal.h> // whether a number is typed
 
+#include "io/table.h"
 #include "scene/cone.h"
 #include "scene/light_types.h"
 #include "scene/polygons.h"
@@ -110,7 +112,7 @@ std::string described(const LightEdit& edit)
     return light + (a.type != b.type                         ? " has another type"
                     : differ(a.position, b.position)         ? " moved"
                     : a.radius != b.radius                   ? " has another size"
-                    : a.influenceRadius != b.influenceRadius ? " reaches another distance"
+                    : a.influenceRadius != b.influenceRadius ? " has another influence radius"
                     : differ(a.direction, b.direction)       ? " turned"
                     : differ(a.emission, b.emission)         ? " has another brightness or colour"
                                                              : " has another shape");
@@ -154,6 +156,19 @@ bool coneWidgets(CndLight& light)
     return true;
 }
 
+// A number that can be dragged, written with commas as people do. While it is typed, it has digits
+// alone, which can be read back.
+bool dragNumber(const char* label, float& value, float lowest, float highest,
+                const std::string& unit)
+{
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool typed =
+        ImGui::TempInputIsActive(ImGui::GetID(label)) || io.KeyCtrl || io.MouseDoubleClicked[0];
+    const std::string format = (typed ? "%.9g" : written(double(value))) + unit;
+    return ImGui::DragFloat(label, &value, std::max(value * 0.01f, 1e-3f), lowest, highest,
+                            format.c_str(), ImGuiSliderFlags_AlwaysClamp);
+}
+
 // Edits the luminous power, which is `lumens` now, in lm or in W.
 bool powerWidget(CndLight& light, float lumens, bool& watts)
 {
@@ -161,8 +176,7 @@ bool powerWidget(CndLight& light, float lumens, bool& watts)
     const float widget = ImGui::CalcItemWidth(), unit = 4 * ImGui::GetFontSize();
     float value = lumens / perUnit;
     ImGui::SetNextItemWidth(widget - unit - ImGui::GetStyle().ItemInnerSpacing.x);
-    const bool edited = ImGui::DragFloat("##power", &value, std::max(value * 0.01f, 1e-3f), 1e-5f,
-                                         1e9f, "%.4g", ImGuiSliderFlags_AlwaysClamp);
+    const bool edited = dragNumber("##power", value, 1e-5f, 1e9f, "");
     if (edited)
         assign(light.emission,
                toVec3(light.emission) * (value * perUnit / std::max(lumens, 1e-6f)));
@@ -197,9 +211,7 @@ bool emissionWidgets(CndLight& light, bool& watts)
     const char* name = cndIsPunctual(light.type)
                            ? cndIsDistant(light.type) ? "illuminance" : "intensity"
                            : "luminance";
-    const std::string format = std::string("%.4g ") + unit;
-    if (ImGui::DragFloat(name, &value, std::max(value * 0.01f, 1e-3f), 1e-3f, 1e12f, format.c_str(),
-                         ImGuiSliderFlags_AlwaysClamp)) {
+    if (dragNumber(name, value, 1e-3f, 1e12f, std::string(" ") + unit)) {
         assign(light.emission, toVec3(light.emission) * (value / largest));
         edited = true;
     }
@@ -436,7 +448,7 @@ bool lightWidgets(CndLight& light, bool& watts)
     edited |= shapeWidgets(light);
     if (!cndIsDistant(light.type))
         edited |=
-            ImGui::DragFloat("reaches", &light.influenceRadius, 0.05f,
+            ImGui::DragFloat("influence radius", &light.influenceRadius, 0.05f,
                              std::max(cndEmitterBoundingRadius(&light) * influenceMargin, 0.01f),
                              1e6f, "%.2f m", ImGuiSliderFlags_AlwaysClamp);
     return edited;

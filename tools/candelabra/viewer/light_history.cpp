@@ -35,25 +35,29 @@ void applyEdit(Scene& scene, const LightEdit& edit)
 void LightHistory::add(const LightEdit& edit)
 {
     steps_.resize(next_);
-    LightEdit* last = steps_.empty() ? nullptr : &steps_.back();
+    LightEdit* last = steps_.empty() ? nullptr : &steps_.back().edit;
     const bool change = edit.before && edit.after;
     if (change && open_ && last && last->light == edit.light && last->before && last->after)
         last->after = edit.after;
     else
-        steps_.push_back(edit);
+        steps_.push_back({edit});
+    steps_.back().state = ++states_;
     open_ = true;
-    if (sameLight(steps_.back().before, steps_.back().after)) { // nothing is left of the step
+    if (sameLight(steps_.back().edit.before,
+                  steps_.back().edit.after)) { // nothing is left of the step
         steps_.pop_back();
         open_ = false;
     }
-    if (steps_.size() > mostSteps)
+    if (steps_.size() > mostSteps) {
+        forgotten_ = steps_.front().state;
         steps_.erase(steps_.begin());
+    }
     next_ = steps_.size();
 }
 
 LightEdit LightHistory::undo(Scene& scene)
 {
-    LightEdit edit = steps_[--next_];
+    LightEdit edit = steps_[--next_].edit;
     std::swap(edit.before, edit.after);
     open_ = false;
     applyEdit(scene, edit);
@@ -62,7 +66,7 @@ LightEdit LightHistory::undo(Scene& scene)
 
 LightEdit LightHistory::redo(Scene& scene)
 {
-    const LightEdit edit = steps_[next_++];
+    const LightEdit edit = steps_[next_++].edit;
     open_ = false;
     applyEdit(scene, edit);
     return edit;

@@ -34,13 +34,20 @@ public:
 
     bool canUndo() const { return next_ > 0; }
     bool canRedo() const { return next_ < steps_.size(); }
+    // Returns a number for what the lights are now: undoing an edit brings back the number before.
+    uint64_t state() const { return next_ ? steps_[next_ - 1].state : forgotten_; }
     // Undo or redo a step, which there must be. They return the edit that was made with `scene`.
     LightEdit undo(Scene& scene);
     LightEdit redo(Scene& scene);
 
 private:
-    std::vector<LightEdit> steps_;
-    size_t next_ = 0; // the steps from here on are undone
+    struct Step {
+        LightEdit edit;
+        uint64_t state = 0; // after the edit
+    };
+    std::vector<Step> steps_;
+    uint64_t states_ = 0, forgotten_ = 0; // the last number, and that before the first step
+    size_t next_ = 0;                     // the steps from here on are undone
     bool open_ = false;
 };
 

@@ -115,6 +115,46 @@ void drawWipeLine(const PanelState& state, float bottom)
     list->AddText({x + 8, y}, white, right.c_str());
 }
 
+void drawObject(const SelectedObject& object, const Scene& scene)
+{
+    const glm::dvec3 size = object.bounds.max - object.bounds.min;
+    ImGui::TextWrapped("%s, %s x %s x %s m", object.name.c_str(), threeDigits(size.x).c_str(),
+                       threeDigits(size.y).c_str(), threeDigits(size.z).c_str());
+    const Material& m = scene.materials[object.material];
+    const auto texture = [](const TextureRef& ref) {
+        return ref.texture >= 0 ? ", times a texture" : "";
+    };
+    ImGui::TextWrapped("material %u%s%s", object.material, m.name.empty() ? "" : ": ",
+                       m.name.c_str());
+    const glm::vec3 srgb = glm::pow(glm::clamp(m.baseColor, 0.0f, 1.0f), glm::vec3(1 / 2.2f));
+    ImGui::ColorButton("##colour", {srgb.x, srgb.y, srgb.z, 1});
+    ImGui::SameLine();
+    ImGui::TextWrapped("colour %.2f, %.2f, %.2f, linear%s", double(m.baseColor.x),
+                       double(m.baseColor.y), double(m.baseColor.z), texture(m.baseColorTexture));
+    ImGui::TextWrapped("roughness %.2f, metalness %.2f%s", double(m.perceptualRoughness),
+                       double(m.metalness), texture(m.metallicRoughnessTexture));
+    if (const float light = std::max({m.emission.x, m.emission.y, m.emission.z}); light > 0)
+        ImGui::TextWrapped("shines with %s cd/m^2%s", written(double(light)).c_str(),
+                           texture(m.emissiveTexture));
+}
+
+// The list of the scene's cameras. It shows the one that the view began with.
+void drawCameras(PanelState& state, const Scene& scene)
+{
+    const auto name = [](const Camera& camera) {
+        return camera.name.empty() ? "without a name" : camera.name.c_str();
+    };
+    if (!ImGui::BeginCombo("camera", name(state.frame.camera)))
+        return;
+    for (size_t i = 0; i < scene.cameras.size(); ++i) {
+        ImGui::PushID(int(i)); // names may be the same
+        if (ImGui::Selectable(name(scene.cameras[i])))
+            state.wantedCamera = i;
+        ImGui::PopID();
+    }
+    ImGui::EndCombo();
+}
+
 void drawMaterials(PanelState& state)
 {
     MaterialOverride& m = state.materials;
@@ -284,7 +324,7 @@ void drawPick(PanelState& state, const Pick& pick, const Scene& scene)
     }
     const double all = luminanceOf(pick.radiance);
     ImGui::TextWrapped("at (%.2f, %.2f, %.2f) m, %s cd/m^2, %s", pick.position.x, pick.position.y,
-                       pick.position.z, threeDigits(all).c_str(),
+                       pick.position.z, written(all).c_str(),
                        counted(pick.lights.size(), "light").c_str());
     constexpr ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY;
     const float line = ImGui::GetTextLineHeightWithSpacing();
@@ -306,7 +346,7 @@ void drawPick(PanelState& state, const Pick& pick, const Scene& scene)
                               ImGuiSelectableFlags_SpanAllColumns))
             state.editor.selected = light.light;
         ImGui::TableNextColumn();
-        ImGui::TextUnformatted(threeDigits(y).c_str());
+        ImGui::TextUnformatted(written(y).c_str());
         ImGui::TableNextColumn();
         ImGui::Text("%.1f%%", all > 0 ? 100 * y / all : 0);
         ImGui::TableNextColumn();
@@ -388,6 +428,9 @@ void drawSections(PanelState& state, const PanelFigures& figures, Scene& scene, 
 {
     constexpr ImGuiTreeNodeFlags open = ImGuiTreeNodeFlags_DefaultOpen;
     ImGui::PushItemWidth(-9.7f * ImGui::GetFontSize()); // leaves room for the longest name
+    drawCameras(state, scene);
+    if (state.object && ImGui::CollapsingHeader("Object", open))
+        drawObject(*state.object, scene);
     if (ImGui::CollapsingHeader("Light editor", open))
         drawLightEditor(scene, state.editor);
     if (figures.picked && ImGui::CollapsingHeader("Pixel", open))

@@ -27,7 +27,8 @@ struct Wipe {
 // An object that the user has clicked, other than a light.
 struct SelectedObject {
     std::string name;
-    Bounds bounds; // world space
+    Bounds bounds;         // world space
+    uint32_t material = 0; // of the surface that was clicked
 };
 
 // The settings that the user changes, with the panel or with keys.
@@ -46,7 +47,8 @@ struct PanelState {
     bool materialsChosen = false; // `materials` was changed and must be applied to the scene
     bool animate = true;          // moving lights move
     WhileMoving whileMoving = WhileMoving::Auto;
-    uint32_t wantedLights = 0; // the scene is rebuilt if it has another number of lights
+    std::optional<size_t> wantedCamera; // of the scene; the viewer goes there
+    uint32_t wantedLights = 0;          // the scene is rebuilt if it has another number of lights
 };
 
 // The figures that the panel shows.

@@ -114,13 +114,13 @@ void drawProgress(const Job::State& state, bool below)
     ImGui::End();
 }
 
-void drawFailure(const std::string& message)
+void drawMessage(const std::string& message, const char* keys)
 {
     const float width = placeNextWindow(false);
-    if (ImGui::Begin("##failure", nullptr, plain)) {
+    if (ImGui::Begin("##message", nullptr, plain)) {
         writeWrapped(message, width);
         ImGui::Spacing();
-        ImGui::TextUnformatted("Esc closes this window.");
+        ImGui::TextUnformatted(keys);
     }
     ImGui::End();
 }

@@ -50,7 +50,7 @@ private:
 // Draws a window with a sentence, and under it a bar that is filled as far as the work is done.
 // `below`: at the foot of the picture, otherwise in the middle.
 void drawProgress(const Job::State& state, bool below);
-// Draws a window in the middle with a message and the key that closes the program.
-void drawFailure(const std::string& message);
+// Draws a window in the middle with a message and the keys that answer it.
+void drawMessage(const std::string& message, const char* keys);
 
 } // namespace candelabra::app

@@ -96,4 +96,26 @@ void drawSelection(const PanelState& state, const Projection& view,
     }
 }
 
+void drawHandles(const LightHandles& handles, const Projection& view,
+                 std::optional<uint32_t> active)
+{
+    Lines lines(view);
+    for (const uint32_t handle : LightHandles::all) {
+        const int bright = handle == active ? 255 : 200, dark = handle == active ? 160 : 60;
+        const auto part = [&](uint32_t axis) { return handle & axis ? bright : dark; };
+        lines.draw({handles.outlineOf(handle)}, IM_COL32(part(1), part(2), part(4), 255));
+    }
+}
+
+Camera beforeOccluders(Camera fitted, const glm::dvec3& front, RayCaster& rays)
+{
+    const double away = glm::dot(front - fitted.position, fitted.forward);
+    const auto hit = rays.cast({front, -fitted.forward});
+    if (!hit || hit->distance >= away)
+        return fitted;
+    fitted.position = front - 0.9 * hit->distance * fitted.forward;
+    fitted.nearPlane = std::min(fitted.nearPlane, 0.05 * hit->distance);
+    return fitted;
+}
+
 } // namespace candelabra::app

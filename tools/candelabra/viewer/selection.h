@@ -5,8 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "generate/ray_caster.h"
 #include "scene/scene.h"
-#include "viewer/light_shape.h"
+#include "viewer/light_handles.h"
 
 namespace candelabra::app
 {
@@ -18,5 +19,12 @@ std::vector<glm::dvec3> cornersOf(const Bounds& bounds);
 // Draws the outline of the selected light, which is `light`, or of the selected object.
 void drawSelection(const PanelState& state, const Projection& view,
                    const std::optional<CndLight>& light, const glm::dvec3& lightOrigin);
+// Draws the handles of a light in the colours of their axes; `active`: the one under the mouse.
+void drawHandles(const LightHandles& handles, const Projection& view,
+                 std::optional<uint32_t> active);
+
+// Moves a camera, which was fitted to something, forward to where no surface lies between it and
+// `front`, a point in front of that. `rays` cast into the scene.
+Camera beforeOccluders(Camera fitted, const glm::dvec3& front, RayCaster& rays);
 
 } // namespace candelabra::app

@@ -181,7 +181,7 @@ void Viewer::show(std::unique_ptr<LoadedScene> loaded)
     wantedScene_ = sceneName_;
     wantedOptions_ = sceneOptions_;
     if (kept == Kept::Nothing)
-        camera_ = FlyCamera(loaded->view.camera, cruisingSpeed(scene_));
+        camera_ = FlyCamera(home_ = loaded->view.camera, cruisingSpeed(scene_));
     seenFrom_ = camera_.camera();
     shownLeft_ = loadingShading_;
     lightsEdited_ = kept == Kept::CameraAndLights;
@@ -196,6 +196,7 @@ void Viewer::takeScene(Kept kept)
     if (kept != Kept::CameraAndLights) {
         ownLights_ = scene_.lights.size() - sceneOptions_.lights.value_or(0);
         panel_.editor = {.watts = panel_.editor.watts}; // the unit stays as the user chose it
+        savedState_ = panel_.editor.history.state();
     }
     panel_.frame.lightsVisible = options_.lightsVisible.value_or(scene_.lightsVisible);
     CndExposureSettings& exposure = panel_.frame.exposure;

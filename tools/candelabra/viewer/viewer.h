@@ -15,7 +15,7 @@
 #include "scene/scene_options.h"
 #include "viewer/fly_camera.h"
 #include "viewer/keys.h"
-#include "viewer/light_shape.h"
+#include "viewer/light_handles.h"
 #include "viewer/moving_size.h"
 #include "viewer/panel.h"
 #include "viewer/scene_loader.h"
@@ -82,20 +82,27 @@ private:
     bool onFrameAction(KeyAction action);
     bool onLightAction(KeyAction action);
     void escape();
+    void close();
     void showNote(const std::string& note);
     void showError(const std::string& note);
     void showLightNote(const char* what);
     void toggleOrbit();
     void frameSelection();
     void frameScene();
+    void goTo(const Camera& camera);
+    std::optional<LightHandles> handles() const;
+    double clickSlack() const; // pixels by which a click may miss
+    void dragHandle();
     Camera cameraOfWindow() const;
     Projection projection() const;
     std::optional<CndLight> selectedNow() const;
+    RayCaster& rays();
     std::optional<RayHit> surfaceAt(glm::dvec2 place);
     std::optional<uint32_t> lightUnder(glm::dvec2 place, const std::optional<RayHit>& surface,
                                        const std::optional<SelectedObject>& object) const;
     void selectAt(glm::dvec2 place);
     void addLightInView();
+    float influenceRadiusFor(float power) const;
     void onDrop(const std::string& path);
     std::string freeName(const char* extension);
     void save(const char* extension, const std::function<void(const std::string&)>& write);
@@ -215,6 +222,7 @@ private:
     double pictureTime_ = 0;  // s since the last picture began, as moveCamera counts them
     double pictureWall_ = 0;  // the same by the clock
     bool moves_ = false;      // camera or lights have moved since then
+    Camera home_;             // where the scene was shown from at first
     Camera seenFrom_;         // the camera of the frame before
     bool edited_ = false;     // lights were edited before that frame
     bool complete_ = false;   // the picture was complete
@@ -239,16 +247,26 @@ private:
     bool lightsEdited_ = false; // the renderers do not know yet how the user has edited the lights
     // Everything that the user asked for has been made, so the frame shows it.
     bool prepared_ = false;
-    bool resetExposure_ = true;      // the next frame jumps to the converged exposure
-    double time_ = 0;                // seconds, for moving lights
-    double mouseX_ = 0, mouseY_ = 0; // window coordinates
-    std::set<int> heldKeys_;         // keys of the scene, not of a field of the panel
-    std::set<int> freshKeys_;        // those that were pressed since the last frame
+    bool resetExposure_ = true; // the next frame jumps to the converged exposure
+    double time_ = 0;           // seconds, for moving lights
+    double mouseX_ = Overlay::nowhere, mouseY_ = Overlay::nowhere; // window coordinates
+    std::set<int> heldKeys_;  // keys of the scene, not of a field of the panel
+    std::set<int> freshKeys_; // those that were pressed since the last frame
     // A drag that began on the scene and has not ended: the button, and how far the mouse has moved
     // in all and since the last frame, in window coordinates.
     std::optional<int> dragButton_;
     double dragged_ = 0;
     glm::dvec2 look_{0};
+    // If it drags a handle of the selected light: which one, the handles as they were when it
+    // began, the point of the handle that was under the mouse, and the position of the light.
+    struct HandleDrag {
+        uint32_t handle = 0;
+        LightHandles handles;
+        glm::dvec3 from, light;
+    };
+    std::optional<HandleDrag> handleDrag_;
+    bool asks_ = false;             // whether to close the window although edits are not saved
+    uint64_t savedState_ = 0;       // LightHistory::state() when the scene was loaded or saved
     bool moved_ = false;            // the camera moved in the last frame
     std::optional<RayCaster> rays_; // for the present scene; made when first needed
     bool knownExposure_ = false; // the exposure is Scene::knownEv100, which the user has not chosen

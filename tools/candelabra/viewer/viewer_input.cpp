@@ -32,8 +32,12 @@ namespace
 
 constexpr float lightStep = 0.1f;  // metres by which a key moves a light
 constexpr float radiusStep = 1.1f; // factor by which a key changes a light's radius
-// Window units: a click may move the mouse so far, and miss a light by so much.
-constexpr double clickLength = 4, clickSlack = 6;
+// Window units: a click may move the mouse so far, and miss a light by so much. Handles of lights
+// are so long.
+constexpr double clickLength = 4, clickMiss = 6, handleLength = 70;
+constexpr float bulbPower = 800, bulbRadius = 0.03f; // lm, metres
+
+constexpr const char* unsaved = "edits of lights are not saved";
 
 bool contains(const Bounds& bounds, const glm::dvec3& point)
 {
@@ -50,7 +54,8 @@ std::optional<SelectedObject> objectOf(const Scene& scene, const RayHit& hit)
         if (object.type == AnalyticObject::Type::Plane) // has no end
             return {};
         return SelectedObject{fmt::format("ball {}", hit.object),
-                              {object.point - object.radius, object.point + object.radius}};
+                              {object.point - object.radius, object.point + object.radius},
+                              hit.material};
     }
     InstanceRange range{hit.object, 1};
     std::string name = fmt::format("object {}", hit.object);
@@ -73,7 +78,13 @@ std::optional<SelectedObject> objectOf(const Scene& scene, const RayHit& hit)
         bounds.min = glm::min(bounds.min, part.min);
         bounds.max = glm::max(bounds.max, part.max);
     }
-    return SelectedObject{name, bounds};
+    return SelectedObject{name, bounds, hit.material};
+}
+
+double diagonalOf(const Scene& scene)
+{
+    const Bounds bounds = sceneBounds(scene);
+    return glm::length(bounds.max - bounds.min);
 }
 
 bool editsLights(KeyAction action)
@@ -114,7 +125,7 @@ bool Viewer::handle(const InputEvent& event)
     case Kind::Move:
         return onMove(event.x, event.y);
     case Kind::Leave:
-        return dragButton_ || overlay_.moveMouse(Overlay::nowhere, Overlay::nowhere);
+        return dragButton_ || onMove(Overlay::nowhere, Overlay::nowhere);
     case Kind::Wheel: {
         const std::optional<bool> taken = overlay_.takesMouse();
         if (!taken)
@@ -122,9 +133,8 @@ bool Viewer::handle(const InputEvent& event)
         if (*taken)
             return overlay_.turnWheel(event.y);
         camera_.wheel(event.y);
-        showNote(camera_.orbits()
-                     ? "the distance in orbit has changed"
-                     : fmt::format("camera speed {} m/s", threeDigits(camera_.speed())));
+        if (!camera_.orbits())
+            showNote(fmt::format("camera speed {} m/s", threeDigits(camera_.speed())));
         return true;
     }
     case Kind::LoseFocus: // what is released from here on is released unseen
@@ -132,6 +142,7 @@ bool Viewer::handle(const InputEvent& event)
             return false;
         heldKeys_.clear();
         dragButton_.reset();
+        handleDrag_.reset();
         overlay_.releaseAll();
         return true;
     case Kind::Drop:
@@ -174,6 +185,10 @@ bool Viewer::onKeyPressed(const InputEvent& event)
         return true;
     if (!event.repeat) {
         panel_.editor.history.beginStep();
+        if (std::exchange(asks_, false) && binding->action == KeyAction::Quit) {
+            close();
+            return true;
+        }
         if (findBinding(key, 0) == binding) // Ctrl+D does not fly to the right, as D does
             heldKeys_.insert(key);
         freshKeys_.insert(key);
@@ -187,6 +202,10 @@ bool Viewer::onButton(const InputEvent& event)
     const glm::dvec2 place = mouseInPicture();
     if (!event.down && dragButton_ == event.code) {
         dragButton_.reset();
+        if (std::exchange(handleDrag_, std::nullopt)) {
+            showLightNote("moved");
+            return overlay_.moveMouse(mouseX_, mouseY_);
+        }
         const bool click = dragged_ < clickLength * double(window_.contentScale());
         if (click && event.code == GLFW_MOUSE_BUTTON_LEFT)
             selectAt(place);
@@ -199,6 +218,7 @@ bool Viewer::onButton(const InputEvent& event)
     const std::optional<bool> taken = overlay_.takesMouse();
     if (!taken)
         return false;
+    asks_ = false;
     if (*taken) {
         panel_.editor.history.beginStep(); // what the user drags until the release is one step
         return overlay_.pressButton(event.code);
@@ -208,6 +228,16 @@ bool Viewer::onButton(const InputEvent& event)
     if (event.code == GLFW_MOUSE_BUTTON_LEFT || event.code == GLFW_MOUSE_BUTTON_RIGHT) {
         dragButton_ = event.code;
         dragged_ = 0;
+    }
+    const auto grips = handles();
+    const auto handle = grips ? grips->at(projection(), place, clickSlack()) : std::nullopt;
+    if (handle && event.code == GLFW_MOUSE_BUTTON_LEFT) {
+        panel_.editor.history.beginStep();
+        const float(&at)[3] = scene_.lights[*panel_.editor.selected].position;
+        handleDrag_ = HandleDrag{.handle = *handle,
+                                 .handles = *grips,
+                                 .from = *grips->pointOn(*handle, projection(), place),
+                                 .light = {at[0], at[1], at[2]}};
     }
     return true;
 }
@@ -221,11 +251,43 @@ bool Viewer::onMove(double x, double y)
     const glm::dvec2 way{x - mouseX_, y - mouseY_};
     mouseX_ = x;
     mouseY_ = y;
-    if (dragButton_) {
+    if (handleDrag_) {
+        dragHandle();
+    } else if (dragButton_) {
         look_ += way;
         dragged_ += std::abs(way.x) + std::abs(way.y);
     }
     return true;
+}
+
+// Returns the handles of the selected light if it can be dragged now.
+std::optional<LightHandles> Viewer::handles() const
+{
+    const std::optional<CndLight> light = selectedNow();
+    if (!light || cndIsDistant(light->type) || rebuilds())
+        return {};
+    const Projection view = projection();
+    const glm::dvec3 centre =
+        scene_.lightOrigin + glm::dvec3(light->position[0], light->position[1], light->position[2]);
+    const double pixel = view.metresPerPixel(std::max(view.depthOf(centre), 0.0));
+    return LightHandles{centre, handleLength * double(window_.contentScale()) * pixel};
+}
+
+double Viewer::clickSlack() const
+{
+    return clickMiss * double(window_.contentScale());
+}
+
+// Moves the light so that the point of the handle stays under the mouse.
+void Viewer::dragHandle()
+{
+    const HandleDrag& drag = *handleDrag_;
+    const auto to = drag.handles.pointOn(drag.handle, projection(), mouseInPicture());
+    if (!to || !panel_.editor.selected || rebuilds())
+        return;
+    const float(&at)[3] = scene_.lights[*panel_.editor.selected].position;
+    moveLight(scene_, panel_.editor,
+              drag.light + (*to - drag.from) - glm::dvec3(at[0], at[1], at[2]));
 }
 
 bool Viewer::isHeld(KeyAction action) const
@@ -270,6 +332,10 @@ void Viewer::onAction(KeyAction action)
     case KeyAction::FrameScene:
         frameScene();
         break;
+    case KeyAction::Home:
+        goTo(home_);
+        spdlog::debug("at the camera of the beginning");
+        break;
     case KeyAction::ListLights:
         pick_ = pixelUnderMouse();
         if (!pick_)
@@ -286,11 +352,15 @@ void Viewer::onAction(KeyAction action)
         break;
     case KeyAction::Panel:
         panel_.visible = !panel_.visible;
-        showNote(panel_.visible ? "the panel is shown" : "the panel is hidden");
+        spdlog::debug("the panel is {}", panel_.visible ? "shown" : "hidden");
         break;
     case KeyAction::Help:
         panel_.help = !panel_.help;
-        showNote(panel_.help ? "the help is shown" : "the help is hidden");
+        spdlog::debug("the help is {}", panel_.help ? "shown" : "hidden");
+        break;
+    case KeyAction::FullScreen:
+        window_.toggleFullScreen();
+        spdlog::debug("full screen, or a window again");
         break;
     case KeyAction::Quit:
         escape();
@@ -300,17 +370,23 @@ void Viewer::onAction(KeyAction action)
     }
 }
 
+void Viewer::close()
+{
+    spdlog::debug("the viewer is closed");
+    window_.close();
+}
+
 void Viewer::escape()
 {
     if (overlay_.listOpen()) {
         overlay_.endEditing();
-        showNote("the list is closed");
     } else if (panel_.help) {
         panel_.help = false;
-        showNote("the help is hidden");
+    } else if (panel_.editor.history.state() != savedState_) {
+        asks_ = true;
+        spdlog::debug("{}", unsaved);
     } else {
-        showNote("the viewer is closed");
-        window_.close();
+        close();
     }
 }
 
@@ -337,22 +413,21 @@ bool Viewer::onFrameAction(KeyAction action)
             frame.heatMap = HeatMap((uint32_t(frame.heatMap) + 1) % heatMapCount);
         if (frame.heatMap == HeatMap::Shadow && !frame.shadows)
             frame.heatMap = HeatMap::None;
-        showNote(frame.culling == CND_CULLING_CLUSTERED
-                     ? fmt::format("heat map: {}", nameOf(frame.heatMap, heatMapChoices))
-                     : "heat maps need clustered culling (C)");
+        if (frame.culling == CND_CULLING_CLUSTERED)
+            spdlog::debug("heat map: {}", nameOf(frame.heatMap, heatMapChoices));
+        else
+            showNote("heat maps need clustered culling (C)");
         return true;
     case KeyAction::Compare:
         panel_.wipe.on = !panel_.wipe.on;
-        showNote(panel_.wipe.on ? "two ways of shading are compared"
-                                : "one way of shading is shown");
+        spdlog::debug(panel_.wipe.on ? "two ways of shading are compared"
+                                     : "one way of shading is shown");
         return true;
     case KeyAction::FewerLights:
         panel_.wantedLights = std::max(lights / 2, 1u);
-        showNote(fmt::format("{} wanted", counted(panel_.wantedLights, "light")));
         return true;
     case KeyAction::MoreLights:
         panel_.wantedLights = std::min(std::max(lights, 1u) * 2, maxLights);
-        showNote(fmt::format("{} wanted", counted(panel_.wantedLights, "light")));
         return true;
     case KeyAction::Darker:
     case KeyAction::Brighter:
@@ -364,7 +439,7 @@ bool Viewer::onFrameAction(KeyAction action)
     }
 }
 
-// Says what was done with the selected light.
+// Prints with --verbose what was done with the selected light, which the picture shows.
 void Viewer::showLightNote(const char* what)
 {
     if (!panel_.editor.selected)
@@ -377,9 +452,8 @@ void Viewer::showLightNote(const char* what)
                                                 scene_.lightOrigin.y + double(light.position[1]),
                                                 scene_.lightOrigin.z + double(light.position[2]));
     const bool round = cndLightFields(light.type) & CND_LIGHT_FIELD_RADIUS_BIT;
-    showNote(fmt::format("light {} {}: {} {}{}", *panel_.editor.selected, what,
-                         lightTypeLabel(light.type), place,
-                         round ? fmt::format(", radius {:.4g}", light.radius) : ""));
+    spdlog::debug("light {} {}: {} {}{}", *panel_.editor.selected, what, lightTypeLabel(light.type),
+                  place, round ? fmt::format(", radius {:.4g}", light.radius) : "");
 }
 
 // Handles the keys of lights; returns true if `action` is one of them. Lights move along the
@@ -419,8 +493,10 @@ bool Viewer::onLightAction(KeyAction action)
         showLightNote("selected");
         return true;
     case KeyAction::RemoveLight:
-        showNote(editor.selected ? fmt::format("light {} removed", *editor.selected)
-                                 : "no light is selected: click one, or Tab");
+        if (editor.selected)
+            spdlog::debug("light {} removed", *editor.selected);
+        else
+            showLightNote("");
         removeLight(scene_, editor);
         return true;
     case KeyAction::ShrinkLight:
@@ -472,48 +548,69 @@ void Viewer::toggleOrbit()
     showNote("the camera orbits the point ahead");
 }
 
-// Moves the camera, in its direction, to where it sees what is selected, or else the whole scene.
+// Turns the camera to what is selected and moves it to where that fills the picture, or else to
+// where it sees the whole scene. It stops before what would hide the selected light or object.
 void Viewer::frameSelection()
 {
-    std::vector<glm::dvec3> points;
+    // Half of the size of what is selected, and of what is to be in the picture.
+    glm::dvec3 middle(0), half(0), shown(0);
     std::string what;
     if (const auto light = selectedNow(); light && !cndIsDistant(light->type)) {
         // A light is seen together with what it lights best.
-        const glm::dvec3 centre =
-            scene_.lightOrigin +
-            glm::dvec3(light->position[0], light->position[1], light->position[2]);
+        middle = scene_.lightOrigin +
+                 glm::dvec3(light->position[0], light->position[1], light->position[2]);
         const double near =
             std::isfinite(light->influenceRadius) ? 0.1 * light->influenceRadius : 0;
-        const double radius = std::max({3.0 * cndEmitterBoundingRadius(&*light), near, 0.25});
-        for (int corner = 0; corner < 8; ++corner)
-            points.push_back(centre + radius * glm::dvec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1,
-                                                          corner & 4 ? 1 : -1));
+        const double radius = cndEmitterBoundingRadius(&*light);
+        half = glm::dvec3(std::max(radius, 0.01));
+        shown = glm::dvec3(std::max({3 * radius, near, 0.25}));
         what = fmt::format("light {}", *panel_.editor.selected);
     } else if (panel_.object) {
-        points = cornersOf(panel_.object->bounds);
+        const Bounds& b = panel_.object->bounds;
+        middle = 0.5 * (b.min + b.max);
+        half = shown = 0.5 * (b.max - b.min);
         what = panel_.object->name;
     } else {
         return frameScene();
     }
+    Camera camera = camera_.camera();
+    if (const glm::dvec3 way = middle - camera.position; glm::length(way) > 1e-3)
+        camera.forward = glm::normalize(way);
+    camera = FlyCamera(camera, camera_.speed()).camera(); // which never looks straight down
     const PixelSize size = swapchain_.size();
-    camera_ =
-        FlyCamera(fitCamera(std::move(points), camera_.camera(), double(size.width) / size.height),
-                  camera_.speed());
-    showNote(what + " fills the view");
+    const Camera fitted = fitCamera(cornersOf({middle - shown, middle + shown}), camera,
+                                    double(size.width) / size.height);
+    const double depth = glm::dot(half, glm::abs(camera.forward));
+    goTo(beforeOccluders(fitted, middle - depth * camera.forward, rays()));
+    spdlog::debug("{} is framed", what);
 }
 
-// Moves the camera back until it sees all of the scene; inside a room, to where it saw most of it.
+void Viewer::goTo(const Camera& camera)
+{
+    camera_ = FlyCamera(camera, camera_.speed());
+}
+
+RayCaster& Viewer::rays()
+{
+    if (!rays_)
+        rays_.emplace(scene_);
+    return *rays_;
+}
+
+// Moves the camera back until it sees all of the scene; into a room, to its camera inside.
 void Viewer::frameScene()
 {
-    showNote("the whole scene is in view");
+    spdlog::debug("the whole scene is in view");
     if (scene_.interior) {
-        camera_ = FlyCamera(selectCamera(scene_, "inside"), camera_.speed());
-        return;
+        const auto inside =
+            std::find_if(scene_.cameras.begin(), scene_.cameras.end(),
+                         [](const Camera& camera) { return camera.name == "inside"; });
+        return goTo(inside == scene_.cameras.end() ? scene_.cameras.front() : *inside);
     }
     const PixelSize size = swapchain_.size();
     const Camera fitted = fitCamera(scene_, {0, scene_.instances.size()}, camera_.camera(),
                                     double(size.width) / size.height);
-    camera_ = FlyCamera(fitted, camera_.speed());
+    goTo(fitted);
 }
 
 // Returns the camera as a picture of the window's size shows it.
@@ -539,10 +636,8 @@ std::optional<CndLight> Viewer::selectedNow() const
 // Returns the surface that is visible at a place of the picture. Masks count as surfaces.
 std::optional<RayHit> Viewer::surfaceAt(glm::dvec2 place)
 {
-    if (!rays_)
-        rays_.emplace(scene_);
     const Projection::Line line = projection().lineAt(place);
-    return rays_->cast({line.origin, line.direction});
+    return rays().cast({line.origin, line.direction});
 }
 
 // Returns the light at a place of the picture: one that no surface hides, or the only light inside
@@ -553,8 +648,7 @@ std::optional<uint32_t> Viewer::lightUnder(glm::dvec2 place, const std::optional
     std::vector<CndLight> lights;
     lightsAtTime(scene_, time_, lights);
     const auto nearest = [&](double farthest) {
-        return lightAt(lights, scene_.lightOrigin, projection(), place,
-                       clickSlack * double(window_.contentScale()), farthest);
+        return lightAt(lights, scene_.lightOrigin, projection(), place, clickSlack(), farthest);
     };
     constexpr double unlimited = std::numeric_limits<double>::infinity();
     const std::optional<uint32_t> visible = nearest(surface ? surface->distance : unlimited);
@@ -585,30 +679,40 @@ void Viewer::selectAt(glm::dvec2 place)
         panel_.object.reset();
         return showLightNote("selected");
     }
-    showNote(panel_.object ? panel_.object->name + " selected" : "nothing is selected");
+    if (panel_.object)
+        spdlog::debug("{} selected, of material {}", panel_.object->name,
+                      scene_.materials[panel_.object->material].name);
+    else
+        spdlog::debug("nothing is selected");
 }
 
-// Adds a light where it lights what is in the middle of the view without hiding it: nearer to the
-// camera, and higher. Its size goes with the distance. What it lights gets about the illuminance
-// with which a grey card would have the luminance that the exposure is for now.
+// Adds a bulb that nearly touches the surface under the mouse, or in the middle of the view if the
+// mouse is not over the picture. Where there is no surface, it is a third of the scene away.
 void Viewer::addLightInView()
 {
     const PixelSize size = swapchain_.size();
-    const Camera camera = cameraOfWindow();
-    const auto seen = surfaceAt({0.5 * size.width, 0.5 * size.height});
-    const Bounds bounds = sceneBounds(scene_);
-    const double diagonal = glm::length(bounds.max - bounds.min);
-    const double distance = seen ? seen->distance : std::max(diagonal / 3, 1.0);
-    const double higher = 0.6 * std::tan(0.5 * camera.verticalFov) * 0.7 * distance;
+    const glm::dvec2 place =
+        pixelUnderMouse() ? mouseInPicture() : 0.5 * glm::dvec2(size.width, size.height);
+    const Projection::Line line = projection().lineAt(place);
+    const auto seen = surfaceAt(place);
     const glm::dvec3 position =
-        camera.position + 0.7 * distance * camera.forward + glm::dvec3(0, higher, 0);
-    const double fromLight = glm::length(glm::dvec2(0.3 * distance, higher));
-    const double luminance = std::exp2(double(figures_.exposure.adaptedEv100)) / 8; // cd/m^2
-    const double illuminance = luminance * std::numbers::pi / 0.18;
+        seen ? seen->position + 2.0 * bulbRadius * seen->normal
+             : line.origin + std::max(diagonalOf(scene_) / 3, 1.0) * line.direction;
     addLight(scene_, panel_.editor, position,
-             {.radius = float(0.02 * distance),
-              .power = float(4 * std::numbers::pi * illuminance * fromLight * fromLight),
-              .influenceRadius = float(8 * fromLight)});
+             {.radius = bulbRadius,
+              .power = bulbPower,
+              .influenceRadius = influenceRadiusFor(bulbPower)});
+}
+
+// Returns the distance at which a bulb gives a hundredth of the illuminance with which a grey card
+// would have the luminance that the exposure is for now. That is at least 1 m, and at most the
+// diagonal of the scene if that is more.
+float Viewer::influenceRadiusFor(float power) const
+{
+    const double luminance = std::exp2(double(figures_.exposure.adaptedEv100)) / 8; // cd/m^2
+    const double least = 0.01 * luminance * std::numbers::pi / 0.18;                // lx
+    const double radius = std::sqrt(double(power) / (4 * std::numbers::pi * least));
+    return float(std::clamp(radius, 1.0, std::max(diagonalOf(scene_), 1.0)));
 }
 
 void Viewer::onDrop(const std::string& path)
@@ -662,6 +766,7 @@ void Viewer::saveScene()
         if (panel_.materials.on)
             source.materials = panel_.materials;
         writeText(path, sceneDescription(scene_, source, camera_.camera(), time_, path));
+        savedState_ = panel_.editor.history.state();
     });
 }
 
@@ -712,6 +817,8 @@ void Viewer::moveCamera(double seconds)
     }
     if (std::exchange(panel_.editor.wantsNew, false))
         onAction(KeyAction::AddLight);
+    if (const auto camera = std::exchange(panel_.wantedCamera, std::nullopt))
+        goTo(scene_.cameras[*camera]);
     const auto axis = [&](KeyAction plus, KeyAction minus) {
         return double(isHeld(plus)) - double(isHeld(minus));
     };
@@ -737,6 +844,14 @@ void Viewer::drawOverlay()
         panel_.object.reset();
     panel_.editor.locked = rebuilds();
     drawSelection(panel_, projection(), selectedNow(), scene_.lightOrigin);
+    if (const auto grips = handles())
+        drawHandles(*grips, projection(),
+                    handleDrag_   ? handleDrag_->handle
+                    : dragButton_ ? std::nullopt
+                                  : grips->at(projection(), mouseInPicture(), clickSlack()));
+    if (asks_)
+        drawMessage(std::string("The ") + unsaved + ".",
+                    "F5 saves them, Esc closes without, another key goes on.");
     drawPanel(panel_, figures_, scene_);
     constexpr double unseen = 0.1; // s; what takes less time is not worth a bar
     if (!loader_.busy() && work_.busy() && work_.seconds() > unseen)

@@ -137,6 +137,30 @@ void Window::resize(PixelSize size)
                           int(size.height * unsigned(height) / now.height));
 }
 
+void Window::toggleFullScreen()
+{
+    auto& [x, y, width, height] = windowed_;
+    if (glfwGetWindowMonitor(window_)) {
+        glfwSetWindowMonitor(window_, nullptr, x, y, width, height, GLFW_DONT_CARE);
+        return;
+    }
+    glfwGetWindowPos(window_, &x, &y);
+    glfwGetWindowSize(window_, &width, &height);
+    int count = 0;
+    GLFWmonitor** monitors = glfwGetMonitors(&count);
+    for (int i = count - 1; i >= 0; --i) { // the first is the primary one
+        int left = 0, top = 0;
+        glfwGetMonitorPos(monitors[i], &left, &top);
+        const GLFWvidmode* mode = glfwGetVideoMode(monitors[i]);
+        const int middleX = x + width / 2 - left, middleY = y + height / 2 - top;
+        const bool here =
+            middleX >= 0 && middleX < mode->width && middleY >= 0 && middleY < mode->height;
+        if (here || i == 0)
+            return glfwSetWindowMonitor(window_, monitors[i], 0, 0, mode->width, mode->height,
+                                        mode->refreshRate);
+    }
+}
+
 void Window::setTitle(const std::string& title)
 {
     glfwSetWindowTitle(window_, title.c_str());

@@ -62,6 +62,7 @@ public:
     void close();
     void hide();
     void resize(PixelSize size); // of the image
+    void toggleFullScreen();     // on the monitor that shows the middle of the window, and back
     void setTitle(const std::string& title);
 
     // Adds what has happened to `events`.
@@ -74,6 +75,7 @@ public:
 
 private:
     GLFWwindow* window_ = nullptr;
+    int windowed_[4] = {}; // x, y, width and height before full screen
 };
 
 } // namespace candelabra::app

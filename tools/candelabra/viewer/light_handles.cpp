@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/light_handles.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace candelabra::app
+{
+namespace
+{
+
+constexpr double steepest = 0.1; // sine of the angle below which a handle cannot be dragged
+
+glm::dvec3 axisOf(int axis)
+{
+    return {axis == 0, axis == 1, axis == 2};
+}
+
+bool isLine(uint32_t handle)
+{
+    return handle == 1 || handle == 2 || handle == 4;
+}
+
+double distanceToSegment(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b)
+{
+    const glm::dvec2 d = b - a;
+    const double t = std::clamp(glm::dot(p - a, d) / std::max(glm::dot(d, d), 1e-12), 0.0, 1.0);
+    return glm::length(a + t * d - p);
+}
+
+// Tells whether a place is inside of a convex polygon, whose edges are pairs of ends.
+bool isInside(glm::dvec2 p, const std::vector<glm::dvec2>& edges)
+{
+    int left = 0, right = 0;
+    for (size_t i = 0; i + 1 < edges.size(); i += 2) {
+        const glm::dvec2 d = edges[i + 1] - edges[i], e = p - edges[i];
+        (d.x * e.y - d.y * e.x < 0 ? left : right) += 1;
+    }
+    return edges.size() == 8 && (left == 0 || right == 0); // no corner is behind the camera
+}
+
+} // namespace
+
+std::vector<glm::dvec3> LightHandles::outlineOf(uint32_t handle) const
+{
+    std::vector<glm::dvec3> axes;
+    for (int axis = 0; axis < 3; ++axis)
+        if (handle >> axis & 1)
+            axes.push_back(length * axisOf(axis));
+    if (axes.size() == 1)
+        return {centre + 0.15 * axes[0], centre + axes[0]};
+    const glm::dvec3 near = centre + 0.3 * (axes[0] + axes[1]), u = 0.25 * axes[0],
+                     v = 0.25 * axes[1];
+    return {near, near + u, near + u + v, near + v, near};
+}
+
+std::optional<uint32_t> LightHandles::at(const Projection& view, glm::dvec2 place,
+                                         double slack) const
+{
+    std::optional<uint32_t> nearest;
+    double best = slack;
+    for (const uint32_t handle : all) {
+        const std::vector<glm::dvec2> ends = view.segments(outlineOf(handle));
+        if (!isLine(handle) && isInside(place, ends) && pointOn(handle, view, place))
+            return handle;
+        if (!isLine(handle) || ends.empty() || !pointOn(handle, view, place))
+            continue;
+        if (const double miss = distanceToSegment(place, ends[0], ends[1]); miss <= best) {
+            best = miss;
+            nearest = handle;
+        }
+    }
+    return nearest;
+}
+
+std::optional<glm::dvec3> LightHandles::pointOn(uint32_t handle, const Projection& view,
+                                                glm::dvec2 place) const
+{
+    const Projection::Line line = view.lineAt(place);
+    const glm::dvec3 w = centre - line.origin;
+    if (!isLine(handle)) {
+        const glm::dvec3 normal = axisOf(handle & 1 ? handle & 2 ? 2 : 1 : 0);
+        const double facing = glm::dot(normal, line.direction);
+        const double along = glm::dot(normal, w) / facing;
+        if (std::abs(facing) < steepest || along <= 0)
+            return {};
+        return line.origin + along * line.direction;
+    }
+    // The point of the axis that is nearest to the line of sight.
+    const glm::dvec3 axis = axisOf(handle == 1 ? 0 : handle == 2 ? 1 : 2);
+    const double across = glm::dot(axis, line.direction);
+    const double slope = 1 - across * across;
+    const double t =
+        (across * glm::dot(w, line.direction) - glm::dot(w, axis)) / std::max(slope, 1e-12);
+    const glm::dvec3 point = centre + t * axis;
+    if (slope < steepest * steepest || glm::dot(point - line.origin, line.direction) <= 0)
+        return {};
+    return point;
+}
+
+} // namespace candelabra::app
