@@ -240,7 +240,7 @@ def passes(run):
     lights = [[str(l["light"]), l["type"], f"{l['influenceRadius']:.3g}", f"{l['pixels']:,}", f"{100 * l['share']:.1f}%"]
               for l in run["lightCosts"]["lights"][:10]]
     return (figures.table(["pass", "median ms", "p95 ms"], rows) + "\n\nThe lights that take the most shading time:\n\n"
-            + figures.table(["light", "type", "reach m", "pixels", "share of shading"], lights))
+            + figures.table(["light", "type", "influence radius m", "pixels", "share of shading"], lights))
 
 
 def chapter(report, tables, folder, name):
