@@ -543,6 +543,54 @@ TEST_F(ProgramTest, ProfileTellsADifferenceFromNone)
     EXPECT_TRUE(found);
 }
 
+// A profile of a file that really has the change counts as many pairs as were predicted.
+TEST_F(ProgramTest, ProfilePredictsPairsExactly)
+{
+    const std::string profile = " --size 96x64 --light-costs 6 -q --json - --frames ";
+    auto scene = nlohmann::json::parse(std::ifstream(test::dataPath("every_light.json")));
+    for (auto& light : scene["lights"]) {
+        const std::string type = light.value("type", "sphere");
+        if (type != "directional" && type != "distant_sphere" &&
+            !light.contains("influence_radius"))
+            light["influence_radius"] = 6;
+    }
+    write("before.json", scene.dump());
+    const auto predicted = [&](const std::string& change) {
+        const Outcome outcome = run("profile before.json --what-if " + change + profile + "6");
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        return nlohmann::json::parse(outcome.out);
+    };
+    const auto measuredPairs = [&](const nlohmann::json& after) {
+        write("after.json", after.dump());
+        const Outcome outcome = run("profile after.json" + profile + "1");
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        return nlohmann::json::parse(outcome.out)["lightCosts"]["pairs"].get<double>();
+    };
+    const auto json = predicted("influence=0.5");
+    EXPECT_EQ(test::keyFaults(json["whatIf"], "profile-what-if"), "");
+    const auto& answer = json["whatIf"];
+    EXPECT_EQ(json["lightCosts"]["pairs"], answer["aPairs"]);
+    ASSERT_GE(answer["changedLights"].size(), 2u) << answer;
+    ASSERT_GE(answer["keptLights"].size(), 1u) << answer;
+    EXPECT_GT(answer["shading"]["ratio"], 0) << answer;
+    auto narrow = scene, fewer = scene;
+    for (const size_t light : answer["changedLights"]) {
+        auto& radius = narrow["lights"][light]["influence_radius"];
+        radius = 0.5 * radius.get<double>();
+    }
+    EXPECT_LT(answer["bPairs"], answer["aPairs"]);
+    EXPECT_EQ(measuredPairs(narrow), answer["bPairs"]);
+
+    const auto off = predicted("off")["whatIf"];
+    std::set<size_t, std::greater<>> removed(off["changedLights"].begin(),
+                                             off["changedLights"].end());
+    ASSERT_EQ(removed.size(), 6u);
+    for (const size_t light : removed)
+        fewer["lights"].erase(light);
+    EXPECT_EQ(measuredPairs(fewer), off["bPairs"]);
+    EXPECT_LT(off["bPairs"], answer["bPairs"]);
+}
+
 TEST_F(ProgramTest, ProfiledRunsCollectAndCompare)
 {
     for (int i = 0; i < 2; ++i)

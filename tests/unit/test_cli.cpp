@@ -48,6 +48,13 @@ TEST(Cli, ProfileRefusesWhatItCannotCompare)
     refused({"--frames-in-flight", "9"}, "--frames-in-flight \"9\"");
     refused({"--append"}, "--append: needs --json");
     refused({"--append", "--json", "p", "--ab", "", ""}, "--append: --ab compares by itself");
+    refused({"--append", "--json", "p", "--what-if", "off"}, "--append: --what-if compares");
+    refused({"--what-if", "reach=0.5"},
+            "--what-if reach=0.5: give influence=FACTOR, radius=FACTOR, off or method=NAME");
+    refused({"--what-if", "off", "--ab", "", ""}, "--what-if: cannot be combined with --ab");
+    refused({"--what-if", "off", "--culling", "brute"}, "--what-if: cannot be combined with");
+    refused({"--what-if", "off", "--influence", "uncut"}, "--what-if: needs the given influence");
+    refused({"--what-if", "off", "--frames", "5"}, "--what-if needs at least 6");
 }
 
 TEST(Cli, RefusesInOneSentenceThatNamesTheArgument)

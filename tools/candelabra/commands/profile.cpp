@@ -3,6 +3,8 @@
 // is faster than another.
 #include <algorithm>
 #include <memory>
+#include <numeric>
+#include <optional>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -19,6 +21,7 @@
 #include "measure/frame/light_costs.h"
 #include "measure/profile/profile_frames.h"
 #include "measure/profile/run_file.h"
+#include "measure/profile/what_if.h"
 #include "render/camera.h"
 #include "render/provenance.h"
 
@@ -32,7 +35,7 @@ struct ProfileArguments {
     SceneArguments scene;
     FrameArguments frame;
     std::string frames = "60", warmUp = "0", framesInFlight = "1", path = "still";
-    std::string json, csv, lightCosts;
+    std::string json, csv, lightCosts, whatIf;
     std::vector<std::string> ab;
     bool append = false;
 };
@@ -71,7 +74,38 @@ struct ProfilePlan {
     CndGBufferLayout gbufferLayout;
     ProfileSettings settings;
     uint32_t shadows = 0; // of all variants that have shadows
+    std::optional<uint32_t> lightCosts;
+    std::optional<WhatIf> whatIf; // the second variant
 };
+
+void requireCountablePairs(const std::string& option, const ProfileArguments& a)
+{
+    if (!a.ab.empty() || a.frame.cullingMode() != CND_CULLING_CLUSTERED)
+        throw UsageError(option + ": cannot be combined with --ab, which compares variants of its "
+                                  "own, or with --culling brute, which has no lists");
+    if (a.frame.influenceRule().rule != CND_INFLUENCE_GIVEN)
+        throw UsageError(option +
+                         ": needs the given influence radii, so it cannot be combined with "
+                         "--influence uncut or --influence-error");
+}
+
+// Adds the variants that are compared with each other.
+void addVariants(const ProfileArguments& a, ProfilePlan& p)
+{
+    const FrameOptions frame = a.frame.frameOptions();
+    p.names = {"A", "B"};
+    if (p.whatIf) {
+        p.settings.variants = {frame, frame};
+        if (!p.whatIf->changesLights())
+            p.settings.variants[1].specular = p.whatIf->method;
+    }
+    for (const std::string& text : a.ab)
+        p.settings.variants.push_back(variantOptions(a.frame, text));
+    const uint32_t first = p.settings.variants[0].shadows, second = p.settings.variants[1].shadows;
+    if (first && second && first != second)
+        throw UsageError("--ab: both have shadows, which must be found for as many points");
+    p.shadows = std::max(first, second);
+}
 
 ProfilePlan planProfile(const ProfileArguments& a)
 {
@@ -83,25 +117,15 @@ ProfilePlan planProfile(const ProfileArguments& a)
     if (a.append) {
         if (a.json.empty() || a.json == "-")
             throw UsageError("--append: needs --json with a file");
-        if (!a.ab.empty())
+        if (!a.ab.empty() || !a.whatIf.empty())
             throw UsageError(
-                "--append: --ab compares by itself, and its results are not collected");
+                fmt::format("--append: {} compares by itself, and its results are not collected",
+                            a.ab.empty() ? "--what-if" : "--ab"));
         withRun(a.json, {}); // throws if the file holds something else than runs
     }
     const uint32_t rounds = unsignedOption("--frames", a.frames, 1, 1'000'000);
     const uint32_t inFlight =
         unsignedOption("--frames-in-flight", a.framesInFlight, 1, maxFramesInFlight);
-    if (!a.lightCosts.empty()) {
-        unsignedOption("--light-costs", a.lightCosts, 1, 1'000'000);
-        if (!a.ab.empty() || a.frame.cullingMode() != CND_CULLING_CLUSTERED)
-            throw UsageError(
-                "--light-costs: needs the lists of one variant, so it cannot be combined "
-                "with --ab or --culling brute");
-        if (a.frame.influenceRule().rule != CND_INFLUENCE_GIVEN)
-            throw UsageError(
-                "--light-costs: needs the given influence radii, so it cannot be combined "
-                "with --influence uncut or --influence-error");
-    }
     ProfilePlan p{
         .scene = a.scene.options(a.scene.lightCount()),
         .gbufferLayout = a.frame.gbufferLayout(),
@@ -109,31 +133,40 @@ ProfilePlan planProfile(const ProfileArguments& a)
                      .rounds = rounds,
                      .warmUpSeconds = numberOption("--warm-up", a.warmUp, 0, maxWarmUpSeconds),
                      .framesInFlight = inFlight}};
-    if (a.ab.empty()) {
+    if (!a.lightCosts.empty()) {
+        p.lightCosts = unsignedOption("--light-costs", a.lightCosts, 1, 1'000'000);
+        requireCountablePairs("--light-costs", a);
+    }
+    if (!a.whatIf.empty()) {
+        p.whatIf = parseWhatIf(a.whatIf);
+        requireCountablePairs("--what-if", a);
+    }
+    if (a.ab.empty() && !p.whatIf) {
         p.names = {"frame"};
         p.settings.variants = {a.frame.frameOptions()};
         p.shadows = p.settings.variants[0].shadows;
         return p;
     }
     if (p.settings.rounds < minPairs)
-        throw UsageError(
-            fmt::format("--frames {}: --ab needs at least {}, because fewer pairs have "
-                        "no interval of 95%",
-                        a.frames, minPairs));
-    p.names = {"A", "B"};
-    for (const std::string& text : a.ab)
-        p.settings.variants.push_back(variantOptions(a.frame, text));
-    const uint32_t first = p.settings.variants[0].shadows, second = p.settings.variants[1].shadows;
-    if (first && second && first != second)
-        throw UsageError("--ab: both have shadows, which must be found for as many points");
-    p.shadows = std::max(first, second);
+        throw UsageError(fmt::format("--frames {}: {} needs at least {}, because fewer pairs have "
+                                     "no interval of 95%",
+                                     a.frames, p.whatIf ? "--what-if" : "--ab", minPairs));
+    addVariants(a, p);
     return p;
 }
 
+// What a profile has found, for text and JSON.
+struct ProfileResult {
+    Profile profile;
+    std::optional<LightCosts> costs;
+    std::optional<WhatIfPairs> whatIf;
+};
+
 Json profileJson(const ProgramContext& program, const ProfileArguments& a, const ProfilePlan& p,
                  const VulkanContext& context, const Scene& scene, const Renderer& renderer,
-                 const Profile& profile)
+                 const ProfileResult& found)
 {
+    const Profile& profile = found.profile;
     Json variants = Json::array();
     for (size_t v = 0; v < p.names.size(); ++v) {
         Json one{{"name", p.names[v]}};
@@ -158,31 +191,105 @@ Json profileJson(const ProgramContext& program, const ProfileArguments& a, const
                {"secondsAtLeast", p.settings.warmUpSeconds},
                {"settled", profile.settled}}},
              {"variants", variants}};
-    if (!a.ab.empty())
+    if (p.names.size() == 2)
         out["comparison"] = comparisonJson(profile.series[0], profile.series[1]);
+    if (found.costs)
+        out["lightCosts"] = lightCostJson(*found.costs, scene, *p.lightCosts,
+                                          medianOf(profile.series[0].shadingMs()));
+    if (found.whatIf)
+        out["whatIf"] = whatIfJson(*p.whatIf, *found.whatIf, profile);
     return out;
 }
 
-// `all` is the number of triangles of all instances.
-std::string profileText(const ProfileArguments& a, const Profile& profile, uint64_t all)
+// The times of the passes. `all` is the number of triangles of all instances.
+std::string timesText(const ProfileArguments& a, const Profile& profile, uint64_t all)
 {
     const std::vector<uint64_t>& counts = profile.drawnTriangles; // one per variant
     std::string drawn = fmt::format("The first frame draws {}", grouped(counts.front()));
     if (counts.back() != counts.front())
         drawn += fmt::format(" (A) and {} (B)", grouped(counts.back()));
     drawn += fmt::format(" of {} triangles.\n", grouped(all));
-    if (a.ab.empty())
+    if (profile.series.size() == 1)
         return seriesTable(profile.series[0]).text() +
                overheadText(profile.series[0], profile.stampMs) + drawn;
     const auto shown = [](const std::string& options) {
         return options.empty() ? std::string("the options of the command line") : options;
     };
-    return fmt::format("A: {}\nB: {}\n", shown(a.ab[0]), shown(a.ab[1])) +
+    return fmt::format("A: {}\nB: {}\n", shown(a.ab.empty() ? "" : a.ab[0]),
+                       a.ab.empty() ? "--what-if " + a.whatIf : shown(a.ab[1])) +
            comparisonTable(profile.series[0], profile.series[1]) +
            "A pair is a frame of A and the frame of B drawn next to it. Each row has its own 95% "
            "interval: of twenty rows without a difference, one is called faster or slower by "
            "chance.\n" +
            drawn;
+}
+
+std::string profileText(const ProfileArguments& a, const ProfilePlan& p, const Scene& scene,
+                        const ProfileResult& found, uint64_t triangles)
+{
+    const Profile& profile = found.profile;
+    std::string out = timesText(a, profile, triangles);
+    if (found.costs)
+        out += "\n" + lightCostTable(*found.costs, scene, *p.lightCosts,
+                                     medianOf(profile.series[0].shadingMs()))
+                          .text();
+    if (found.whatIf)
+        out += "\n" + whatIfText(*p.whatIf, *found.whatIf, profile);
+    return out;
+}
+
+// Returns the lights that --what-if changes: those that --light-costs lists, or all.
+std::vector<uint32_t> lightsToChange(const ProfilePlan& p, const std::optional<LightCosts>& costs,
+                                     const Scene& scene)
+{
+    std::vector<uint32_t> out;
+    if (!costs) {
+        out.resize(scene.lights.size());
+        std::iota(out.begin(), out.end(), 0);
+        return out;
+    }
+    for (const LightCost& light : costs->lights)
+        if (out.size() < *p.lightCosts)
+            out.push_back(light.light);
+    return out;
+}
+
+// Draws the frames of all variants. With --what-if, the second one is drawn by a renderer of its
+// own, for the scene with the change.
+ProfileResult measureProfile(const VulkanContext& context, Renderer& renderer, const Scene& scene,
+                             const RendererOptions& options, const ProfilePlan& p, bool quiet)
+{
+    ProfileResult out;
+    ProfileSettings settings = p.settings;
+    const std::vector<FrameOptions>& variants = settings.variants;
+    if (p.lightCosts)
+        out.costs = lightCosts(context, renderer, scene, variants[0]);
+    ChangedScene changed;
+    std::optional<Renderer> other;
+    if (p.whatIf && p.whatIf->changesLights()) {
+        changed = changedScene(scene, lightsToChange(p, out.costs, scene), *p.whatIf);
+        settings.other = &other.emplace(context, changed.scene, options);
+    }
+    {
+        Progress progress(p.settings.rounds + maxWarmUp, !quiet);
+        progress.doing("profiling");
+        out.profile = profileFrames(context, renderer, settings, [&] { progress.advance(1); });
+    }
+    if (!out.profile.settled)
+        spdlog::warn("warning: times were not stable after {} of warming up; the machine is busy",
+                     counted(out.profile.warmUpRounds, "frame"));
+    for (const FrameStats& frame : out.profile.last)
+        if (const uint32_t missing = frame.lighting.unlistedClusters; missing && p.whatIf)
+            spdlog::warn("warning: {} of clusters did not fit into memory, and the pairs of their "
+                         "pixels are not counted",
+                         counted(missing, "list"));
+    if (p.whatIf)
+        out.whatIf = {.lights = scene.lights.size(),
+                      .changed = std::move(changed.changed),
+                      .kept = std::move(changed.kept),
+                      .a = evaluatedPairs(context, renderer, variants[0]),
+                      .b = evaluatedPairs(context, other ? *other : renderer, variants[1])};
+    return out;
 }
 
 int profile(const ProgramContext& program, const ProfileArguments& a)
@@ -211,41 +318,21 @@ int profile(const ProgramContext& program, const ProfileArguments& a)
     const VulkanContext context(a.device.contextOptions());
     spdlog::info("{}: {}, {}x{}, {}, on {}", scene.name, counted(scene.lights.size(), "light"),
                  size.width, size.height, counted(p.settings.rounds, "frame"), context.info().name);
-    Renderer renderer(context, scene,
-                      {.size = size,
-                       .gbufferLayout = p.gbufferLayout,
-                       .framesInFlight = p.settings.framesInFlight,
-                       .specularMethods = methods,
-                       .shadows = p.shadows,
-                       .influenceByError = byError,
-                       .stamps = true});
-    Profile result;
-    {
-        Progress progress(p.settings.rounds + maxWarmUp, !program.quiet);
-        progress.doing("profiling");
-        result = profileFrames(context, renderer, p.settings, [&] { progress.advance(1); });
-    }
-    if (!result.settled)
-        spdlog::warn("warning: times were not stable after {} of warming up; the machine is busy",
-                     counted(result.warmUpRounds, "frame"));
-    const bool toTerminal = a.json != "-" && a.csv != "-";
-    if (toTerminal)
-        writeText("-", profileText(a, result, renderer.triangleCount()));
-    Json costs;
-    if (!a.lightCosts.empty()) {
-        const size_t count = unsignedOption("--light-costs", a.lightCosts, 1, 1'000'000);
-        const double ms = result.series[0].shadingMs();
-        const LightCosts found = lightCosts(context, renderer, scene, p.settings.variants[0]);
-        if (toTerminal)
-            writeText("-", "\n" + lightCostTable(found, scene, count, ms).text());
-        costs = lightCostJson(found, scene, count, ms);
-    }
+    const RendererOptions options{.size = size,
+                                  .gbufferLayout = p.gbufferLayout,
+                                  .framesInFlight = p.settings.framesInFlight,
+                                  .specularMethods = methods,
+                                  .shadows = p.shadows,
+                                  .influenceByError = byError,
+                                  .stamps = true};
+    Renderer renderer(context, scene, options);
+    const ProfileResult found = measureProfile(context, renderer, scene, options, p, program.quiet);
+    if (a.json != "-" && a.csv != "-")
+        writeText("-", profileText(a, p, scene, found, renderer.triangleCount()));
     if (!a.csv.empty())
-        writeText(a.csv, toCsv(p.names, result.series));
+        writeText(a.csv, toCsv(p.names, found.profile.series));
     if (!a.json.empty()) {
-        Json run = profileJson(program, a, p, context, scene, renderer, result);
-        if (!costs.is_null())
-            run["lightCosts"] = costs;
+        const Json run = profileJson(program, a, p, context, scene, renderer, found);
         writeJson(a.json, a.append ? withRun(a.json, run) : run);
     }
     return printValidationMessages(context) ? exitFailed : exitOk;
@@ -280,6 +367,12 @@ void addProfileCommand(CLI::App& app, Run& run)
     addOption(*command, "--light-costs", a->lightCosts, "N",
               "list the N lights that take the most shading time, with the pixels that they cover "
               "and the pairs of light and pixel that are evaluated for them");
+    addOption(*command, "--what-if", a->whatIf, "CHANGE",
+              "predict the pairs of the first frame, by counting, and the times, by frames that "
+              "alternate, after a change of the lights that --light-costs lists, or of all lights "
+              "without it: influence=FACTOR multiplies their influence radii, radius=FACTOR their "
+              "sizes, off removes them; method=NAME evaluates all lights of the frame by that "
+              "--specular method");
     addOption(*command, "--json", a->json, "FILE",
               "JSON file with a summary of all times and their provenance; - is standard output");
     command->add_flag("--append", a->append,
@@ -296,6 +389,7 @@ void addProfileCommand(CLI::App& app, Run& run)
         "  candelabra profile hall --path turn --frames 120 --csv frames.csv\n"
         "  candelabra profile hall --warm-up 2 --frames-in-flight 2 --frames 200\n"
         "  candelabra profile hall --light-costs 20\n"
+        "  candelabra profile hall --light-costs 20 --what-if influence=0.5\n"
         "  candelabra profile hall --ab '--specular karis' '--specular conic'\n"
         "  candelabra profile rooms --ab '--shadows off' '--shadows 64'");
     command->callback(

@@ -23,6 +23,7 @@
 #include "io/error.h"
 #include "io/image.h"
 #include "io/report.h"
+#include "io/statistics.h"
 #include "load/load.h"
 #include "measure/accuracy/image_level.h"
 #include "measure/accuracy/kernel_level.h"
@@ -134,7 +135,7 @@ void profilePart(const Part& part)
         {"settled", profile.settled},
         {"time", toJson(series)},
         {"overhead", overheadJson(series, profile.stampMs)},
-        {"lightCosts", lightCostJson(costs, scene, costlyLights, series.shadingMs())}};
+        {"lightCosts", lightCostJson(costs, scene, costlyLights, medianOf(series.shadingMs()))}};
 }
 
 // Saves pictures of the scenes by Candelabra, of the truth and by the method of games.

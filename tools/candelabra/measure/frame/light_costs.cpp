@@ -2,6 +2,7 @@
 #include "measure/frame/light_costs.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 
@@ -85,10 +86,12 @@ std::vector<glm::vec4> drawAndReadPairs(const VulkanContext& context, Renderer& 
     frame.heatMap = HeatMap::Evaluated;
     frame.reuse = Reuse::None;
     FrameRing ring(context, 1);
-    const auto [cmd, slot, reused] = ring.begin();
-    renderer.record(cmd, slot, frame);
-    ring.submit();
-    ring.wait();
+    do { // until the lists of lights have room: pairs of others are not counted
+        const auto [cmd, slot, reused] = ring.begin();
+        renderer.record(cmd, slot, frame);
+        ring.submit();
+        ring.wait();
+    } while (!renderer.fits(0));
     const gpu::Image& pairs = renderer.pairs();
     const std::vector<uint8_t> bytes =
         readTexels(context, pairs, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_GENERAL,
@@ -191,32 +194,54 @@ LightCosts lightCosts(const VulkanContext& context, Renderer& renderer, const Sc
     return shareOut(image, lights, scene.lightOrigin, frame.camera);
 }
 
+uint64_t evaluatedPairs(const VulkanContext& context, Renderer& renderer, const FrameOptions& frame)
+{
+    uint64_t sum = 0;
+    for (const glm::vec4& pairs : drawAndReadPairs(context, renderer, frame))
+        sum += uint64_t(pairs.y);
+    return sum;
+}
+
+std::string namesOfLights(const std::vector<uint32_t>& lights, size_t all)
+{
+    constexpr size_t named = 3;
+    if (lights.size() == all)
+        return all == 1 ? "the only light" : "all " + counted(all, "light");
+    std::string out = lights.size() == 1 ? "light " : "lights ";
+    for (size_t i = 0; i < std::min(lights.size(), named); ++i)
+        out += fmt::format("{}{}", i ? ", " : "", lights[i]);
+    return out + fmt::format("{} ({} of {})", lights.size() > named ? ", ..." : "",
+                             grouped(lights.size()), grouped(all));
+}
+
 Table lightCostTable(const LightCosts& costs, const Scene& scene, size_t count, double shadingMs)
 {
     Table table({"light",
                  Column::words("type"),
-                 {"reach", "m"},
+                 {"influence radius", "m"},
                  "pixels",
                  "of all",
                  "pairs",
                  "share",
                  {"time", "ms"}});
-    const auto add = [&](const std::string& name, const std::string& type, const std::string& reach,
-                         uint64_t pixels, double pairs, double ms) {
+    const auto add = [&](const std::string& name, const std::string& type,
+                         const std::string& radius, uint64_t pixels, double pairs, double ms) {
         table.add(
-            {name, type, reach, pixels ? grouped(pixels) : "",
+            {name, type, radius, pixels ? grouped(pixels) : "",
              pixels ? fmt::format("{:.2f}%", 100.0 * double(pixels) / double(costs.surfaces)) : "",
              grouped(uint64_t(std::llround(pairs))),
              fmt::format("{:.2f}%", costs.pairs > 0 ? 100 * pairs / costs.pairs : 0.0),
              threeDigits(ms)});
     };
     double shown = 0;
+    std::vector<uint32_t> named;
     const std::vector<CostRow> rows = rowsOf(costs, count, shadingMs);
     for (const CostRow& row : rows) {
         const CndLight& light = scene.lights[row.light];
         add(fmt::format("{}", row.light), lightTypeName(light.type),
             threeDigits(double(light.influenceRadius)), row.pixels, row.pairs, row.ms);
         shown += row.pairs;
+        named.push_back(row.light);
     }
     const double perPair = costs.pairs > 0 ? shadingMs / costs.pairs : 0;
     table.rule();
@@ -226,6 +251,12 @@ Table lightCostTable(const LightCosts& costs, const Scene& scene, size_t count, 
         add("tiles without a light", "", "", 0, costs.others, costs.others * perPair);
     table.add({"shading", "", "", "", "", grouped(uint64_t(std::llround(costs.pairs))), "100.00%",
                threeDigits(shadingMs)});
+    if (shown > 0) {
+        std::string who = namesOfLights(named, scene.lights.size());
+        who[0] = char(std::toupper(who[0]));
+        table.note(fmt::format("{} {} {:.1f}% of shading.", who,
+                               named.size() == 1 ? "takes" : "take", 100 * shown / costs.pairs));
+    }
     return table;
 }
 

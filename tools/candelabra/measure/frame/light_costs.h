@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "io/report.h"
@@ -47,6 +48,13 @@ LightCosts shareOut(const PairImage& image, const std::vector<CndLight>& lights,
 // lights.
 LightCosts lightCosts(const VulkanContext& context, Renderer& renderer, const Scene& scene,
                       const FrameOptions& frame);
+
+// Draws one more clustered frame like `frame`, and counts its pairs as LightCosts::pairs.
+uint64_t evaluatedPairs(const VulkanContext& context, Renderer& renderer,
+                        const FrameOptions& frame);
+
+// Names some of `all` lights by their indices: "lights 7, 12, 31, ... (10 of 4,000)".
+std::string namesOfLights(const std::vector<uint32_t>& lights, size_t all);
 
 // A table of the `count` costliest lights and of what the others take, with their shares of
 // `shadingMs`.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -82,12 +83,12 @@ void FrameSeries::add(const FrameStats& frame, const CpuSpans& cpu,
     stamps.push_back(frame.stamps);
 }
 
-double FrameSeries::shadingMs() const
+std::vector<double> FrameSeries::shadingMs() const
 {
-    double ms = 0;
+    std::vector<double> ms(gpuMs.size());
     for (const Pass& pass : passes)
         if (pass.name == "shade_tiles" || pass.name == "shade_unlisted")
-            ms += medianOf(pass.ms);
+            std::transform(ms.begin(), ms.end(), pass.ms.begin(), ms.begin(), std::plus<>());
     return ms;
 }
 
@@ -110,9 +111,8 @@ namespace
 class RingOfFrames
 {
 public:
-    RingOfFrames(const VulkanContext& context, Renderer& renderer, const ProfileSettings& settings)
-        : renderer_(renderer),
-          moving_(settings.moving),
+    RingOfFrames(const VulkanContext& context, const ProfileSettings& settings)
+        : moving_(settings.moving),
           ring_(context, settings.framesInFlight),
           pending_(settings.framesInFlight)
     {
@@ -121,17 +121,17 @@ public:
     // draw() returns if one frame is in flight, else in a later draw() or in finishAll().
     using Finish =
         std::function<void(const CpuSpans&, const FrameStats&, CpuClock::time_point previousDone)>;
-    void draw(const FrameOptions& options, Finish finish)
+    void draw(Renderer& renderer, const FrameOptions& options, Finish finish)
     {
         const auto [cmd, slot, reused] = ring_.begin();
         if (pending_[slot].finish)
             finished(slot);
-        Pending& frame = pending_[slot] = {.finish = std::move(finish)};
+        Pending& frame = pending_[slot] = {.renderer = &renderer, .finish = std::move(finish)};
         frame.cpu.start = CpuClock::now();
         if (moving_)
-            renderer_.moveLights(options.time);
+            renderer.moveLights(options.time);
         frame.cpu.uploaded = moving_ ? CpuClock::now() : frame.cpu.start;
-        renderer_.record(cmd, slot, options);
+        renderer.record(cmd, slot, options);
         frame.cpu.recorded = CpuClock::now();
         ring_.submit();
         next_ = (slot + 1) % ring_.slots();
@@ -152,6 +152,7 @@ public:
 
 private:
     struct Pending {
+        Renderer* renderer = nullptr;
         CpuSpans cpu{};
         Finish finish; // empty: the slot has no frame
     };
@@ -159,10 +160,9 @@ private:
     {
         Pending frame = std::exchange(pending_[slot], {});
         frame.cpu.done = CpuClock::now();
-        frame.finish(frame.cpu, renderer_.stats(slot), std::exchange(done_, frame.cpu.done));
+        frame.finish(frame.cpu, frame.renderer->stats(slot), std::exchange(done_, frame.cpu.done));
     }
 
-    Renderer& renderer_;
     bool moving_;
     FrameRing ring_;
     std::vector<Pending> pending_; // by slot
@@ -175,7 +175,10 @@ private:
 Profile profileFrames(const VulkanContext& context, Renderer& renderer,
                       const ProfileSettings& settings, const std::function<void()>& onRound)
 {
-    RingOfFrames frames(context, renderer, settings);
+    RingOfFrames frames(context, settings);
+    const auto rendererOf = [&](size_t v) -> Renderer& {
+        return v && settings.other ? *settings.other : renderer;
+    };
     Profile out{.series = std::vector<FrameSeries>(settings.variants.size()),
                 .stampMs = stampCost(context)};
     out.last.resize(settings.variants.size());
@@ -188,11 +191,12 @@ Profile profileFrames(const VulkanContext& context, Renderer& renderer,
             FrameOptions options = settings.variants[v];
             options.camera = cameraAt(options.camera, settings.path, i, settings.rounds);
             options.time = time;
-            frames.draw(options, [&, v](const CpuSpans& cpu, const FrameStats& stats,
-                                        CpuClock::time_point previousDone) {
-                into[v].add(stats, cpu, previousDone, out.stampMs);
-                out.last[v] = stats;
-            });
+            frames.draw(rendererOf(v), options,
+                        [&, v](const CpuSpans& cpu, const FrameStats& stats,
+                               CpuClock::time_point previousDone) {
+                            into[v].add(stats, cpu, previousDone, out.stampMs);
+                            out.last[v] = stats;
+                        });
         }
         if (settings.moving)
             time += frameTime;
@@ -217,10 +221,11 @@ Profile profileFrames(const VulkanContext& context, Renderer& renderer,
         onRound();
     }
     frames.finishAll();
-    for (const FrameOptions& options : settings.variants) {
-        frames.draw(options, [](const CpuSpans&, const FrameStats&, CpuClock::time_point) {});
+    for (size_t v = 0; v < settings.variants.size(); ++v) {
+        frames.draw(rendererOf(v), settings.variants[v],
+                    [](const CpuSpans&, const FrameStats&, CpuClock::time_point) {});
         frames.finishAll();
-        out.drawnTriangles.push_back(readDrawnTriangles(context, renderer));
+        out.drawnTriangles.push_back(readDrawnTriangles(context, rendererOf(v)));
     }
     return out;
 }
@@ -356,19 +361,22 @@ Json overheadJson(const FrameSeries& series, double stampMs)
             {"subtracted", true}};
 }
 
+Json ratioJson(const std::vector<double>& a, const std::vector<double>& b)
+{
+    const PairedRatio r = pairedRatio(a, b);
+    return {{"aMedianMs", medianOf(a)}, {"bMedianMs", medianOf(b)},
+            {"ratio", r.median},        {"low", r.low},
+            {"high", r.high},           {"confidence", 0.95},
+            {"verdict", verdict(r)}};
+}
+
 Json comparisonJson(const FrameSeries& a, const FrameSeries& b)
 {
     Json out = Json::array();
     forBoth(a, b, [&](const std::string& name, const auto& aMs, const auto& bMs) {
-        const PairedRatio r = pairedRatio(aMs, bMs);
-        out.push_back({{"name", name},
-                       {"aMedianMs", medianOf(aMs)},
-                       {"bMedianMs", medianOf(bMs)},
-                       {"ratio", r.median},
-                       {"low", r.low},
-                       {"high", r.high},
-                       {"confidence", 0.95},
-                       {"verdict", verdict(r)}});
+        Json row{{"name", name}};
+        row.update(ratioJson(aMs, bMs));
+        out.push_back(row);
     });
     return out;
 }

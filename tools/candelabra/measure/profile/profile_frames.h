@@ -45,9 +45,8 @@ struct FrameSeries {
     // `previousDone` is the end of the previous frame.
     void add(const FrameStats& frame, const CpuSpans& cpu, CpuClock::time_point previousDone,
              double stampMs);
-    // The sum of the medians of the passes that evaluate the lights of clusters: shade_tiles and
-    // shade_unlisted.
-    double shadingMs() const;
+    // The sum of the passes that evaluate the lights of clusters: shade_tiles and shade_unlisted.
+    std::vector<double> shadingMs() const;
 };
 
 // The times of a whole frame. In tables their rows follow the rows of the passes.
@@ -73,6 +72,8 @@ struct ProfilingOverhead {
 struct ProfileSettings {
     // The variants are drawn in turn, and in the opposite order in every other round.
     std::vector<FrameOptions> variants;
+    // Draws all variants but the first, if it is not null. It must have as many slots.
+    Renderer* other = nullptr;
     CameraPath path = CameraPath::Still;
     bool moving = false; // lights move; a round is a sixtieth of a second
     uint32_t rounds = 1;
@@ -113,6 +114,8 @@ std::string comparisonTable(const FrameSeries& a, const FrameSeries& b);
 
 Json toJson(const FrameSeries& series);
 Json overheadJson(const FrameSeries& series, double stampMs);
+// The ratio of paired times, as in each row of comparisonJson.
+Json ratioJson(const std::vector<double>& a, const std::vector<double>& b);
 Json comparisonJson(const FrameSeries& a, const FrameSeries& b);
 // One line per frame: the variant, the frame, and the value of every series in milliseconds.
 std::string toCsv(const std::vector<std::string>& names, const std::vector<FrameSeries>& series);

@@ -30,7 +30,8 @@ ProfiledRun readRun(const std::string& path, const JsonValue& json)
     const JsonValue variants = json.member("variants");
     variants.requireArray();
     if (variants.size() != 1)
-        variants.fail("must hold one variant: a run with --ab compares its variants itself");
+        variants.fail("must hold one variant: a run with --ab or --what-if compares its variants "
+                      "itself");
     const JsonValue variant = variants.item(0);
     out.version = {{"commit", from.member("commit").string()},
                    {"settings", variant.member("settings").json().dump()}};

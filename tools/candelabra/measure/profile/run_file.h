@@ -30,7 +30,7 @@ struct ProfiledRun {
 };
 
 // Returns all runs in a file, in order. Throws SceneError if the file was not written by
-// `candelabra profile`, and for a run with --ab, which compares its variants itself.
+// `candelabra profile`, and for a run with --ab or --what-if, which compares its variants itself.
 std::vector<ProfiledRun> readRuns(const std::string& path);
 
 // Returns the runs that the file holds, if it exists, followed by `run`. Throws SceneError like
