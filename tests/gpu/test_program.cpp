@@ -546,14 +546,17 @@ TEST_F(ProgramTest, ProfileTellsADifferenceFromNone)
 // A profile of a file that really has the change counts as many pairs as were predicted.
 TEST_F(ProgramTest, ProfilePredictsPairsExactly)
 {
-    const std::string profile = " --size 96x64 --light-costs 6 -q --json - --frames ";
+    const std::string profile = " --size 96x64 --light-costs 3 -q --json - --frames ";
     auto scene = nlohmann::json::parse(std::ifstream(test::dataPath("every_light.json")));
+    auto lights = nlohmann::json::array(); // of three types, because each needs pipelines
     for (auto& light : scene["lights"]) {
         const std::string type = light.value("type", "sphere");
-        if (type != "directional" && type != "distant_sphere" &&
-            !light.contains("influence_radius"))
+        if (type == "sphere" || type == "point")
             light["influence_radius"] = 6;
+        if (type == "sphere" || type == "point" || type == "directional")
+            lights.push_back(light);
     }
+    scene["lights"] = lights;
     write("before.json", scene.dump());
     const auto predicted = [&](const std::string& change) {
         const Outcome outcome = run("profile before.json --what-if " + change + profile + "6");
@@ -584,7 +587,7 @@ TEST_F(ProgramTest, ProfilePredictsPairsExactly)
     const auto off = predicted("off")["whatIf"];
     std::set<size_t, std::greater<>> removed(off["changedLights"].begin(),
                                              off["changedLights"].end());
-    ASSERT_EQ(removed.size(), 6u);
+    ASSERT_EQ(removed.size(), 3u);
     for (const size_t light : removed)
         fewer["lights"].erase(light);
     EXPECT_EQ(measuredPairs(fewer), off["bPairs"]);
