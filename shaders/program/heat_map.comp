@@ -47,22 +47,25 @@ void count(vec4 pairs)
     atomicAdd(counts[scale], 1u);
 }
 
+// The scale of the picture. It is 0 for maps that do not count lights.
+shared uint scale;
+
 uint scaleOfPicture()
 {
     if (!countsLights())
         return 0u;
-    uint all = 0u, within = 0u, scale = 0u;
+    uint all = 0u, within = 0u, found = 0u;
     for (uint i = 0u; i < HEAT_MAP_SCALES; ++i)
         all += counts[i];
-    for (; scale + 1u < HEAT_MAP_SCALES; ++scale) {
-        within += counts[scale];
+    for (; found + 1u < HEAT_MAP_SCALES; ++found) {
+        within += counts[found];
         if ((all - within) * 100u <= all)
             break;
     }
-    return scale;
+    return found;
 }
 
-uint colourOf(vec4 pairs, uint scale)
+uint colourOf(vec4 pairs)
 {
     const uint pixelClass = uint(pairs.w);
     if (params.which == HEAT_MAP_CLASS || pixelClass == 0u) // class 0: no surface
@@ -78,7 +81,7 @@ vec4 classColour(uint index)
 }
 
 // The colour of the legend in a column and a row from its top.
-vec4 legendColour(uint scale, uint x, uint y)
+vec4 legendColour(uint x, uint y)
 {
     const uvec2 size = params.legendSize;
     return classColour(HEAT_MAP_CLASSES + HEAT_MAP_SCALES + (scale * size.y + y) * size.x + x);
@@ -95,6 +98,10 @@ vec4 shadowColour(vec4 shadows)
 
 void main()
 {
+    // Each group searches once. In the dispatch that counts, the scale is not used.
+    if (gl_LocalInvocationIndex == 0u && params.counts == 0u)
+        scale = scaleOfPicture();
+    barrier();
     const uvec2 pixel = gl_GlobalInvocationID.xy;
     if (any(greaterThanEqual(pixel, params.size)))
         return;
@@ -103,14 +110,13 @@ void main()
         count(pairs);
         return;
     }
-    const uint scale = scaleOfPicture();
     const uint fromBottom = params.size.y - 1u - pixel.y;
     vec4 colour;
     if (pixel.x < params.legendSize.x && fromBottom < params.legendSize.y)
-        colour = legendColour(scale, pixel.x, params.legendSize.y - 1u - fromBottom);
+        colour = legendColour(pixel.x, params.legendSize.y - 1u - fromBottom);
     else if (params.which == HEAT_MAP_SHADOW)
         colour = shadowColour(pairs);
     else
-        colour = unpackUnorm4x8(colours[colourOf(pairs, scale)]);
+        colour = unpackUnorm4x8(colours[colourOf(pairs)]);
     imageStore(displayImage, ivec2(pixel), colour);
 }

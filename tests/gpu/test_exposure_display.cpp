@@ -258,7 +258,8 @@ TEST_F(ExposureTest, aRectangleHasTheBitsOfAWholeImage)
             << "row " << y;
 }
 
-// So two views with images of their own can share the exposure that is metered from one of them.
+// A frame with deltaTime 0 displays another image by the exposure of the frame before. Two views
+// with images of their own share an exposure in this way.
 TEST_F(ExposureTest, noTimeKeepsTheExposure)
 {
     const gpu::Image bright = toDevice(flatPicture(8, 8, 500)),

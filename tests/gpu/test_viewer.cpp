@@ -255,7 +255,7 @@ constexpr KeyCheck keyChecks[] = {
     {KeyAction::Frame, "^light [0-9]+ is framed$"},
     {KeyAction::Home, "^at the camera of the beginning$"},
     {KeyAction::Quit, "^edits of lights are not saved$"},
-    {KeyAction::RemoveLight, "^light [0-9]+ removed$"},
+    {KeyAction::RemoveLight, "^light [0-9]+ removed: "},
     {KeyAction::Orbit, "^the camera orbits the point ahead$", 2},
     {KeyAction::Orbit, "^the camera flies$"},
     {KeyAction::Forward, "^--camera "},

@@ -128,7 +128,8 @@ TEST(LightShape, IsFoundAmong100000)
               uint32_t((158 + 9) * 317 + 158 + 7));
 }
 
-// What is dragged stays under the mouse, and moves along the axes of the handle only.
+// A handle is found at its place in the picture. The point that is dragged by it stays under the
+// mouse, and leaves neither the line nor the plane of the handle.
 TEST(LightHandles, AreFoundAndFollowTheMouse)
 {
     Camera camera;
@@ -154,12 +155,12 @@ TEST(LightHandles, AreFoundAndFollowTheMouse)
                 to[axis] += 0.5 + 0.25 * axis;
         const auto point = handles.pointOn(handle, view, placeOf(to));
         ASSERT_TRUE(point) << handle;
-        // Along a line, the middle is not on the axis by rounding alone.
+        // Rounding separates the point from where the mouse was moved.
         EXPECT_LT(glm::length(*point - to), 1e-9) << handle;
     }
     EXPECT_FALSE(handles.at(view, placeOf({1, 2, 3}) + glm::dvec2(80, 0), 4));
-    // A line that points to the camera, and a plane that is seen from its edge, stay where they
-    // are.
+    // The mouse cannot drag along a line that points to the camera, or in a plane that is seen from
+    // its edge.
     camera.forward = {0, 0, -1};
     camera.position = {1, 2, 13};
     const Projection straight(camera, clickSize);

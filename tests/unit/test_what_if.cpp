@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests what --what-if changes, refuses and says. gpu/test_program.cpp tests what it counts.
 #include <cmath>
-#include <numeric>
 
 #include <gtest/gtest.h>
 

@@ -21,6 +21,7 @@
 #include "io/error.h"
 #include "io/report.h"
 #include "io/suggestion.h"
+#include "io/table.h"
 #include "render/check.h"
 #include "scene/scene_error.h"
 
@@ -113,12 +114,10 @@ std::string commandSentence(const Named& named, const CLI::ParseError& error)
     const bool missing = dynamic_cast<const CLI::RequiredError*>(&error) && !parts.empty();
     if (!named.unknown && !missing)
         return "";
-    std::string list;
     std::vector<std::string> names;
-    for (size_t k = 0; k < parts.size(); ++k) {
-        names.push_back(parts[k]->get_name());
-        list += (!k ? "" : k + 1 < parts.size() ? ", " : " and ") + names.back();
-    }
+    for (const CLI::App* part : parts)
+        names.push_back(part->get_name());
+    const std::string list = listed(names);
     const std::string of = named.path.size() == 1 ? "" : " of " + last.get_name();
     if (!named.unknown)
         return fmt::format("no command{} is given; choose from {}{}", of, list, seeHelp(named));

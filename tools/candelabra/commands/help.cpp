@@ -92,12 +92,7 @@ void addOptionsCommand(CLI::App& app)
     a->scene.addOptionsTo(*command);
     a->scene.addLightsTo(*command);
     a->scene.addDefaultLightTo(*command);
-    a->frame.addWithShadowsTo(*command);
-    a->frame.addFitTo(*command);
-    a->frame.addCullingTo(*command);
-    a->frame.addInfluenceTo(*command);
-    a->frame.addDebugTo(*command);
-    a->frame.addReuseTo(*command, Reuse::None);
+    a->frame.addAllTo(*command, Reuse::None);
     a->device.addTo(*command);
     command->callback([a] {}); // keeps the texts of the options alive
     command->formatter(std::make_shared<HelpFormatter>(terminalWidth(), SharedOptions::Explained));

@@ -307,11 +307,16 @@ void FrameArguments::addViewTo(CLI::App& command)
               "draw area lights as visible emitters (default: as the scene says)");
 }
 
-void FrameArguments::addWithShadowsTo(CLI::App& command)
+void FrameArguments::addAllTo(CLI::App& command, Reuse fallback)
 {
     choosesShadows = true;
     shadows = "auto";
     addTo(command);
+    addFitTo(command);
+    addCullingTo(command);
+    addInfluenceTo(command);
+    addDebugTo(command);
+    addReuseTo(command, fallback);
 }
 
 void FrameArguments::addTo(CLI::App& command)

@@ -87,8 +87,8 @@ struct FrameArguments {
     void addPlaceTo(CLI::App& command);
     // Adds only the options of what is seen: size, camera and visible lights.
     void addViewTo(CLI::App& command);
-    // addTo() for commands that choose whether there are shadows.
-    void addWithShadowsTo(CLI::App& command);
+    // Adds all options but those of a single command. --shadows may be auto, and is by default.
+    void addAllTo(CLI::App& command, Reuse fallback);
     void addFitTo(CLI::App& command);
     void addCullingTo(CLI::App& command);
     void addReuseTo(CLI::App& command, Reuse fallback);

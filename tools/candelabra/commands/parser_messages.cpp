@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "io/table.h"
+
 namespace candelabra::app
 {
 namespace
@@ -22,11 +24,10 @@ std::string between(const std::string& said, const std::string& start, std::stri
 // Names the arguments that nothing takes: "4" and "5" are not expected here.
 std::string extrasSentence(const CLI::App& app)
 {
-    const std::vector<std::string> extras = app.remaining(true);
-    std::string list;
-    for (size_t i = 0; i < extras.size(); ++i)
-        list += (!i ? "" : i + 1 < extras.size() ? ", " : " and ") + ('"' + extras[i] + '"');
-    return list + (extras.size() == 1 ? " is" : " are") + " not expected here";
+    std::vector<std::string> extras = app.remaining(true);
+    for (std::string& extra : extras)
+        extra = '"' + extra + '"';
+    return listed(extras) + (extras.size() == 1 ? " is" : " are") + " not expected here";
 }
 
 } // namespace

@@ -409,12 +409,7 @@ void addRenderCommand(CLI::App& app, Run& run)
     command->add_flag(
         "--explain", a->explain,
         "list the passes that the last frame ran, and explain why the others had nothing to do");
-    a->frame.addWithShadowsTo(*command);
-    a->frame.addFitTo(*command);
-    a->frame.addCullingTo(*command);
-    a->frame.addInfluenceTo(*command);
-    a->frame.addDebugTo(*command);
-    a->frame.addReuseTo(*command, Reuse::None);
+    a->frame.addAllTo(*command, Reuse::None);
     a->device.addTo(*command);
     command->footer("Examples:\n"
                     "  candelabra render hall --lights 16000 -o hall.png\n"

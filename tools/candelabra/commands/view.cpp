@@ -114,12 +114,7 @@ void addViewCommand(CLI::App& app, Run& run)
     command->add_flag("--verbose", a->verbose,
                       "report on stderr what each key and click does, where the camera stops, and "
                       "when the picture is complete");
-    a->frame.addWithShadowsTo(*command);
-    a->frame.addFitTo(*command);
-    a->frame.addCullingTo(*command);
-    a->frame.addInfluenceTo(*command);
-    a->frame.addDebugTo(*command);
-    a->frame.addReuseTo(*command, Reuse::Lighting);
+    a->frame.addAllTo(*command, Reuse::Lighting);
     a->device.addTo(*command);
     command->footer(
         "Keys and mouse:\n" + keyHelpText() +

@@ -9,6 +9,7 @@
 #include "generate/generators.h"
 #include "generate/lights.h"
 #include "generate/scene_builder.h"
+#include "io/table.h"
 #include "scene/light_types.h"
 #include "scene/scene_error.h"
 
@@ -128,15 +129,6 @@ void addHolders(SceneBuilder& b, const CndLight& light, uint32_t brass)
     }
 }
 
-// Names the lamps in the order in which they stand.
-std::string namesOf(const std::vector<uint32_t>& lamps)
-{
-    std::string out;
-    for (size_t i = 0; i < lamps.size(); ++i)
-        out += (i == 0 ? "" : i + 1 < lamps.size() ? ", " : " and ") + lightTypeLabel(lamps[i]);
-    return out;
-}
-
 // Adds what comes from afar: a cool sky from the front, which shows the form of what the lamps
 // leave dark, and a low wide sun in the picture.
 void addDistantLights(Scene& scene)
@@ -192,7 +184,10 @@ Scene generateShowcase(const SceneOptions& options)
 
     Scene scene = std::move(b.scene);
     scene.background = {0.6f, 0.38f, 0.5f}; // cd/m^2
-    scene.notes.push_back("showcase, from left to right: " + namesOf(lamps) +
+    std::vector<std::string> names;
+    for (const uint32_t type : lamps)
+        names.push_back(lightTypeLabel(type));
+    scene.notes.push_back("showcase, from left to right: " + listed(names) +
                           "; from afar: a distant sphere behind them and a directional light");
     // All lamps fit if the picture is 16:9.
     scene.cameras = {makeUprightCamera("front", {0, 2.9, 10.6}, {0, -2.0, -10.6}, 0.62),

@@ -144,6 +144,14 @@ std::string written(double value)
     return value >= 999.5 && value < 1e15 ? grouped(std::llround(value)) : threeDigits(value);
 }
 
+std::string listed(std::span<const std::string> words)
+{
+    std::string out;
+    for (size_t i = 0; i < words.size(); ++i)
+        out += (i == 0 ? "" : i + 1 < words.size() ? ", " : " and ") + words[i];
+    return out;
+}
+
 std::string grouped(unsigned long long value)
 {
     std::string digits = std::to_string(value);

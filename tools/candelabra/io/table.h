@@ -77,6 +77,8 @@ std::string threeDigits(const std::optional<double>& value);
 std::string written(double value);
 // 1234567 -> "1,234,567".
 std::string grouped(unsigned long long value);
+// "a", "a and b", "a, b and c".
+std::string listed(std::span<const std::string> words);
 // "1 light", "4,000 lights": for nouns whose plural ends in s.
 std::string counted(unsigned long long value, const std::string& noun);
 

@@ -224,7 +224,7 @@ struct Renderer::State {
     bool culledTriangles = true; // FrameOptions::cullTriangles of the last recorded frame
     double lightTime = 0;
     std::optional<LitImageKey> drawn; // what the images show
-    bool litInBands = false; // so lists are those of the last band (recordBand), if there are any
+    bool litInBands = false; // recordBand() lit the images, so lists are those of the last band
     gpu::Image bandDepth;    // created for the first frame that is lit in bands
     std::optional<HeatMapPass> heatMaps;      // created for the first frame that shows a heat map
     std::optional<Accumulation> accumulation; // created for the first frame of several samples
@@ -675,8 +675,9 @@ void Renderer::State::recordBandDepth(VkCommandBuffer cmd, uint32_t firstRow, ui
         bandDepth = gpu::createImage(
             context.device(), "depth of a band", VK_FORMAT_D32_SFLOAT, width, height,
             VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, aspect);
+    // The band before may still read the image, whose content is not kept.
     constexpr ImageAccess read{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_NONE,
-                               VK_IMAGE_LAYOUT_UNDEFINED}; // by the band before
+                               VK_IMAGE_LAYOUT_UNDEFINED};
     const VkImage from = targets.depth.image.get(), to = bandDepth.image.get();
     transition(cmd, from, computeRead, transferRead, aspect);
     transition(cmd, to, read, transferWrite, aspect);

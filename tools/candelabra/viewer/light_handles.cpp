@@ -2,6 +2,7 @@
 #include "viewer/light_handles.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace candelabra::app
@@ -11,14 +12,15 @@ namespace
 
 constexpr double steepest = 0.1; // sine of the angle below which a handle cannot be dragged
 
-glm::dvec3 axisOf(int axis)
+// Returns the direction of an axis, which is given by its bit in the mask of a handle.
+glm::dvec3 directionOf(uint32_t axisBit)
 {
-    return {axis == 0, axis == 1, axis == 2};
+    return {axisBit == 1, axisBit == 2, axisBit == 4};
 }
 
 bool isLine(uint32_t handle)
 {
-    return handle == 1 || handle == 2 || handle == 4;
+    return std::has_single_bit(handle);
 }
 
 double distanceToSegment(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b)
@@ -28,7 +30,8 @@ double distanceToSegment(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b)
     return glm::length(a + t * d - p);
 }
 
-// Tells whether a place is inside of a convex polygon, whose edges are pairs of ends.
+// Tells whether a place is inside a quadrilateral, whose edges are pairs of ends. Edges are missing
+// if a corner is behind the camera. No place is inside then.
 bool isInside(glm::dvec2 p, const std::vector<glm::dvec2>& edges)
 {
     int left = 0, right = 0;
@@ -36,7 +39,7 @@ bool isInside(glm::dvec2 p, const std::vector<glm::dvec2>& edges)
         const glm::dvec2 d = edges[i + 1] - edges[i], e = p - edges[i];
         (d.x * e.y - d.y * e.x < 0 ? left : right) += 1;
     }
-    return edges.size() == 8 && (left == 0 || right == 0); // no corner is behind the camera
+    return edges.size() == 8 && (left == 0 || right == 0);
 }
 
 } // namespace
@@ -44,9 +47,9 @@ bool isInside(glm::dvec2 p, const std::vector<glm::dvec2>& edges)
 std::vector<glm::dvec3> LightHandles::outlineOf(uint32_t handle) const
 {
     std::vector<glm::dvec3> axes;
-    for (int axis = 0; axis < 3; ++axis)
-        if (handle >> axis & 1)
-            axes.push_back(length * axisOf(axis));
+    for (const uint32_t axis : {1u, 2u, 4u})
+        if (handle & axis)
+            axes.push_back(length * directionOf(axis));
     if (axes.size() == 1)
         return {centre + 0.15 * axes[0], centre + axes[0]};
     const glm::dvec3 near = centre + 0.3 * (axes[0] + axes[1]), u = 0.25 * axes[0],
@@ -79,7 +82,7 @@ std::optional<glm::dvec3> LightHandles::pointOn(uint32_t handle, const Projectio
     const Projection::Line line = view.lineAt(place);
     const glm::dvec3 w = centre - line.origin;
     if (!isLine(handle)) {
-        const glm::dvec3 normal = axisOf(handle & 1 ? handle & 2 ? 2 : 1 : 0);
+        const glm::dvec3 normal = directionOf(7 ^ handle);
         const double facing = glm::dot(normal, line.direction);
         const double along = glm::dot(normal, w) / facing;
         if (std::abs(facing) < steepest || along <= 0)
@@ -87,7 +90,7 @@ std::optional<glm::dvec3> LightHandles::pointOn(uint32_t handle, const Projectio
         return line.origin + along * line.direction;
     }
     // The point of the axis that is nearest to the line of sight.
-    const glm::dvec3 axis = axisOf(handle == 1 ? 0 : handle == 2 ? 1 : 2);
+    const glm::dvec3 axis = directionOf(handle);
     const double across = glm::dot(axis, line.direction);
     const double slope = 1 - across * across;
     const double t =

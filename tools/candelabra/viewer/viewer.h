@@ -215,13 +215,13 @@ private:
     std::optional<Picture> picture_;
     uint32_t bandRows_ = 64; // rows of a piece, so many that it takes about pieceTime
     uint32_t bandDrawn_ = 0; // rows of the piece that the GPU draws now
-    std::chrono::steady_clock::time_point submitted_; // the last frame
+    std::chrono::steady_clock::time_point submitted_; // when the last frame was submitted
     bool hasPicture_ = false; // the display images of the renderers have a picture
     bool handled_ = false;    // an event was handled since the last frame
     bool answered_ = false;   // the last frame drew the panel alone to answer an event
-    double pictureTime_ = 0;  // s since the last picture began, as moveCamera counts them
-    double pictureWall_ = 0;  // the same by the clock
-    bool moves_ = false;      // camera or lights have moved since then
+    double pictureTime_ = 0;  // s of the scene since the last picture began
+    double pictureWall_ = 0;  // s of the clock that the picture has taken so far
+    bool moves_ = false;      // camera or lights have moved in this time
     Camera home_;             // where the scene was shown from at first
     Camera seenFrom_;         // the camera of the frame before
     bool edited_ = false;     // lights were edited before that frame
@@ -257,12 +257,13 @@ private:
     std::optional<int> dragButton_;
     double dragged_ = 0;
     glm::dvec2 look_{0};
-    // If it drags a handle of the selected light: which one, the handles as they were when it
-    // began, the point of the handle that was under the mouse, and the position of the light.
+    // A drag of a handle of the selected light. All members but the first are as they were when the
+    // drag began.
     struct HandleDrag {
-        uint32_t handle = 0;
-        LightHandles handles;
-        glm::dvec3 from, light;
+        uint32_t handle = 0;  // the one that is dragged
+        LightHandles handles; // of the light
+        glm::dvec3 from;      // the point of the handle that was under the mouse
+        glm::dvec3 light;     // the position of the light
     };
     std::optional<HandleDrag> handleDrag_;
     bool asks_ = false;             // whether to close the window although edits are not saved

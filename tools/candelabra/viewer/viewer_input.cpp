@@ -32,9 +32,12 @@ namespace
 
 constexpr float lightStep = 0.1f;  // metres by which a key moves a light
 constexpr float radiusStep = 1.1f; // factor by which a key changes a light's radius
-// Window units: a click may move the mouse so far, and miss a light by so much. Handles of lights
-// are so long.
-constexpr double clickLength = 4, clickMiss = 6, handleLength = 70;
+// Lengths in window units.
+constexpr double clickLength = 4;   // A click moves the mouse by less than this.
+constexpr double clickMiss = 6;     // A click selects a light that is at most so far away.
+constexpr double handleLength = 70; // The lines by which the mouse moves a light are so long.
+
+// The bulb that N adds: about the light of an incandescent lamp of 60 W.
 constexpr float bulbPower = 800, bulbRadius = 0.03f; // lm, metres
 
 constexpr const char* unsaved = "edits of lights are not saved";
@@ -439,7 +442,8 @@ bool Viewer::onFrameAction(KeyAction action)
     }
 }
 
-// Prints with --verbose what was done with the selected light, which the picture shows.
+// Prints with --verbose what was done with the selected light. If none is selected, a note in the
+// window says how to select one.
 void Viewer::showLightNote(const char* what)
 {
     if (!panel_.editor.selected)
@@ -493,10 +497,7 @@ bool Viewer::onLightAction(KeyAction action)
         showLightNote("selected");
         return true;
     case KeyAction::RemoveLight:
-        if (editor.selected)
-            spdlog::debug("light {} removed", *editor.selected);
-        else
-            showLightNote("");
+        showLightNote("removed");
         removeLight(scene_, editor);
         return true;
     case KeyAction::ShrinkLight:
@@ -576,7 +577,7 @@ void Viewer::frameSelection()
     Camera camera = camera_.camera();
     if (const glm::dvec3 way = middle - camera.position; glm::length(way) > 1e-3)
         camera.forward = glm::normalize(way);
-    camera = FlyCamera(camera, camera_.speed()).camera(); // which never looks straight down
+    camera = FlyCamera(camera, camera_.speed()).camera(); // A FlyCamera never looks straight down.
     const PixelSize size = swapchain_.size();
     const Camera fitted = fitCamera(cornersOf({middle - shown, middle + shown}), camera,
                                     double(size.width) / size.height);
