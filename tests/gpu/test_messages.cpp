@@ -109,7 +109,10 @@ TEST_F(LightingTest, TheBudgetThatRanOutIsTold)
         both = statsWith(lists, slot);
     }
     EXPECT_EQ(both.missingListBytes, 0u);
-    EXPECT_EQ((both.shadowSlots + both.missingShadowSlots) * slot, enough);
+    // Both are estimates: which lights they have searched depends on the order of the groups.
+    const double estimate = both.shadowSlots + both.missingShadowSlots;
+    const double slots = double(enough / slot);
+    EXPECT_NEAR(estimate, slots, .05 * slots);
 }
 
 } // namespace candelabra::test
