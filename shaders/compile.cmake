@@ -61,9 +61,10 @@ if(fault)
     file(REMOVE ${OUTPUT})
     message(FATAL_ERROR "${fault}")
 endif()
-# glslang's depfile names the .spv file as its target; the build system needs the C++ file there.
+# glslang's depfile names the .spv file as its target; the build system needs the C++ file there. The depfile escapes
+# spaces of the path, so only the end of the name is looked for.
 file(READ ${OUTPUT}.d.in deps)
-string(REPLACE "${spv}" "${OUTPUT}" deps "${deps}")
+string(REPLACE ".spv: " ": " deps "${deps}")
 file(WRITE ${OUTPUT}.d "${deps}")
 
 file(READ ${spv} hex HEX)
