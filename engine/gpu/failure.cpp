@@ -81,9 +81,9 @@ void requireRect(const char* what, uint32_t x, uint32_t y, uint32_t width, uint3
         failArgument(std::string(what) + ": size " + sides(width, height) + " is outside 1x1.." +
                      sides(largest.width, largest.height));
     if (x > largestSide - width || y > largestSide - height)
-        failArgument(std::string(what) + ": " + sides(width, height) + " pixels from (" +
-                     std::to_string(x) + ", " + std::to_string(y) + ") on end beyond " +
-                     sides(largestSide, largestSide));
+        failArgument(std::string(what) + ": the rectangle of " + sides(width, height) +
+                     " pixels at (" + std::to_string(x) + ", " + std::to_string(y) +
+                     ") ends outside " + sides(largestSide, largestSide));
 }
 
 CndResult report(CndError* error, CndResult code, VkResult vkResult, const char* message) noexcept

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shows in false colours, with a legend, what the lights cost each pixel. Numbers of lights have the
-// scale in which 99% of the pixels with a surface are. So a few pixels do not make all others dark.
+// Shows in false colours, with a legend, what the lights cost each pixel. Maps of light counts end at
+// the smallest scale that holds 99% of the pixels with a surface, so a few extreme pixels do not
+// darken the rest.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/heat_map.h"
@@ -32,7 +33,7 @@ float lightsOf(vec4 pairs)
 }
 
 // The number of lights at the end of a scale.
-float mostOf(uint scale)
+float scaleEnd(uint scale)
 {
     return float(colours[HEAT_MAP_STEPS + HEAT_MAP_CLASSES + scale]);
 }
@@ -42,7 +43,7 @@ void count(vec4 pairs)
     if (pairs.w == 0.0) // no surface
         return;
     uint scale = 0u;
-    while (scale + 1u < HEAT_MAP_SCALES && lightsOf(pairs) > mostOf(scale))
+    while (scale + 1u < HEAT_MAP_SCALES && lightsOf(pairs) > scaleEnd(scale))
         ++scale;
     atomicAdd(counts[scale], 1u);
 }
@@ -59,7 +60,7 @@ uint scaleOfPicture()
         all += counts[i];
     for (; found + 1u < HEAT_MAP_SCALES; ++found) {
         within += counts[found];
-        if ((all - within) * 100u <= all)
+        if (all - within <= all / 100u)
             break;
     }
     return found;
@@ -71,7 +72,7 @@ uint colourOf(vec4 pairs)
     if (params.which == HEAT_MAP_CLASS || pixelClass == 0u) // class 0: no surface
         return HEAT_MAP_STEPS + min(pixelClass, HEAT_MAP_CLASSES - 1u);
     const float place = params.which == HEAT_MAP_EFFICIENCY ? pairs.z / max(pairs.x, 1.0)
-                                                            : lightsOf(pairs) / mostOf(scale);
+                                                            : lightsOf(pairs) / scaleEnd(scale);
     return uint(clamp(place, 0.0, 1.0) * float(HEAT_MAP_STEPS - 1u) + 0.5);
 }
 
@@ -99,14 +100,14 @@ vec4 shadowColour(vec4 shadows)
 void main()
 {
     // Each group searches once. In the dispatch that counts, the scale is not used.
-    if (gl_LocalInvocationIndex == 0u && params.counts == 0u)
+    if (gl_LocalInvocationIndex == 0u && params.onlyCounts == 0u)
         scale = scaleOfPicture();
     barrier();
     const uvec2 pixel = gl_GlobalInvocationID.xy;
     if (any(greaterThanEqual(pixel, params.size)))
         return;
     const vec4 pairs = imageLoad(pairImage, ivec2(pixel));
-    if (params.counts != 0u) {
+    if (params.onlyCounts != 0u) {
         count(pairs);
         return;
     }

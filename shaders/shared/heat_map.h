@@ -21,7 +21,7 @@ const uint HEAT_MAP_COLOURS = 2u;
 const uint HEAT_MAP_STEPS = 256u; // colours of the map
 const uint HEAT_MAP_CLASSES = 4u;
 const uint HEAT_MAP_SCALES = 18u;
-// How many pixels with a surface are within each scale, and not within the one before.
+// For each scale, the number of pixels with a surface that fit it but not the next smaller scale.
 const uint HEAT_MAP_COUNTS = 3u;
 
 // The program's enum HeatMap.
@@ -34,7 +34,7 @@ struct HeatMapParams {
     uvec2 size;
     uvec2 legendSize; // drawn at the lower left
     uint which;       // HEAT_MAP_*
-    uint counts;      // 1: counts pixels and paints nothing
+    uint onlyCounts;  // 1: counts pixels and paints nothing
 };
 GPU_SIZE(HeatMapParams, 24)
 

@@ -285,7 +285,7 @@ TEST_F(ExposureTest, badArgumentsAreRefusedWithASentence)
         {"frameSlot", [](CndExposureFrame& f) { f.frameSlot = slotCount; }},
         {"size 0x4", [](CndExposureFrame& f) { f.width = 0; }},
         {"size 4x16385", [](CndExposureFrame& f) { f.height = 16385; }},
-        {"4x4 pixels from (0, 16381) on", [](CndExposureFrame& f) { f.y = 16381; }},
+        {"4x4 pixels at (0, 16381) ends", [](CndExposureFrame& f) { f.y = 16381; }},
         {"radiance", [](CndExposureFrame& f) { f.radiance = VK_NULL_HANDLE; }},
         {"deltaTime", [](CndExposureFrame& f) { f.deltaTime = -1; }},
         {"deltaTime", [](CndExposureFrame& f) { f.deltaTime = nan; }},

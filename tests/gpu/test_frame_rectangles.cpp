@@ -216,7 +216,8 @@ TEST_F(FrameRectangles, OfLightingHaveTheBitsOfWholeImages)
     CndLightingFrame frame = frameAt<CndLightingFrame>(part_);
     frame.x = 16384 - width + 1;
     expectRefused(module.view, frame,
-                  "CndLightingFrame: 64x48 pixels from (16321, 13) on end beyond 16384x16384");
+                  "CndLightingFrame: the rectangle of 64x48 pixels at (16321, 13) ends outside "
+                  "16384x16384");
 }
 
 // Influence by error reads the radiance and the depth of pixels that it measures. Each `maxError`
@@ -275,8 +276,10 @@ TEST_F(FrameRectangles, OfTheEnvironmentHaveTheBitsOfWholeImages)
         EXPECT_EQ(cndRecordEnvironment(environment_, cmd, &frame, &error),
                   CND_ERROR_INVALID_ARGUMENT);
     });
-    EXPECT_STREQ(error.message, "CndEnvironmentFrame: 64x48 pixels from (19, 4294967295) on end "
-                                "beyond 16384x16384");
+    EXPECT_STREQ(
+        error.message,
+        "CndEnvironmentFrame: the rectangle of 64x48 pixels at (19, 4294967295) ends outside "
+        "16384x16384");
 }
 
 } // namespace candelabra::test

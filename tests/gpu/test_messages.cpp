@@ -113,6 +113,7 @@ TEST_F(LightingTest, TheBudgetThatRanOutIsTold)
     const double estimate = both.shadowSlots + both.missingShadowSlots;
     const double slots = double(enough / slot);
     EXPECT_NEAR(estimate, slots, .05 * slots);
+    EXPECT_EQ(statsWith(0, enough + enough / 20).missingShadowSlots, 0u);
 }
 
 } // namespace candelabra::test

@@ -81,7 +81,7 @@ def install():
         require("glslang" not in run("readelf", "-d", library), f"{name} needs a glslang of the system")
 
     documents = sorted((prefix / "share/doc/candelabra").glob("*.md"))
-    require(len(documents) == 6, f"installed {documents}")
+    require(len(documents) == 9, f"installed {documents}")
     for document in documents:
         text = document.read_text(encoding="utf-8")
         named = re.findall(r"\b[A-Z_]+\.md\b|\bsamples/\w+", text)
@@ -297,7 +297,9 @@ def program():
     run("cmake", "--install", build, "--component", "program", "--prefix", folder)
     files = {str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file()}
     of_report = {name for name in files if name.startswith("share/candelabra/report/")}
-    require(files - of_report == {"bin/candelabra"}, f"{files} are installed")
+    pages = {f"share/doc/candelabra/{name}" for name in ("BLENDER.md", "MANY_MACHINES.md", "SCENE_JSON.md",
+                                                         "scenes/every_light.json", "scenes/noon.json")}
+    require(files - of_report - pages == {"bin/candelabra"}, f"{files} are installed")
     scripts = {pathlib.PurePath(name).name for name in of_report if name.endswith(".py")}
     require(scripts == {"report.py", "figures.py"} and any(n.endswith(".csv") for n in of_report), f"{of_report}")
     require(re.match(r"candelabra \d+\.\d+\.\d+\n", run(folder / "bin/candelabra", "--version")),

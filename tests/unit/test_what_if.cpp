@@ -107,12 +107,12 @@ TEST(WhatIf, RefusesInOneSentence)
     EXPECT_EQ(
         refusal("influence=0.25"),
         "--what-if influence=0.25: light 1 would have an influence radius of 0.5 m, which must be "
-        "greater than the bounding radius of its emitter, 0.625 m; take a factor above 0.312");
+        "greater than the bounding radius of its emitter, 0.625 m; take a factor above 0.314");
     EXPECT_EQ(refusal("radius=16", {0}),
               "--what-if radius=16: light 0 would have an influence radius of 4 m, which must be "
-              "greater than the bounding radius of its emitter, 4 m; take a factor below 16");
+              "greater than the bounding radius of its emitter, 4 m; take a factor below 15.9");
     EXPECT_EQ(refusal("radius=8", {0, 3}),
-              "--what-if radius=8: light 3 would be larger than the sky; take a factor below 4");
+              "--what-if radius=8: light 3 would be larger than the sky; take a factor below 3.98");
     EXPECT_EQ(refusal("influence=0.5", {2, 3}),
               "--what-if influence=0.5: lights 2, 3 (2 of 5) have no finite influence radius");
     EXPECT_EQ(refusal("radius=2", {4}), "--what-if radius=2: light 4 (1 of 5) has no size");
@@ -133,11 +133,11 @@ TEST(WhatIf, AnswersInOneSentence)
                          profileOf({3, 4, 4, 4, 4, 5})),
               "The change leaves out light 4 (1 of 5), which has no size.\nIf light 0 (1 of 5) "
               "were 2 times as large, the same 9 pairs of light and pixel would be evaluated; "
-              "shading would take about the same time (25.0% less to 25.0% more) and the frame "
-              "about the same time (12.5% less to 12.5% more).\n");
+              "shading would take between 25.0% less and 25.0% more time and the frame between "
+              "12.5% less and 12.5% more time.\n");
     EXPECT_EQ(whatIfText(parseWhatIf("off"), {.lights = 2, .changed = {0, 1}, .a = 9},
                          profileOf({0, 0, 0, 0, 0, 0}))
-                  .rfind("Without all 2 lights, 0 instead of 9 pairs of light and pixel would be "
+                  .rfind("Without any light, 0 instead of 9 pairs of light and pixel would be "
                          "evaluated; shading would take 100.0% less time (100.0% to 100.0%)",
                          0),
               0u);

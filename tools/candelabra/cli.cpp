@@ -63,7 +63,11 @@ void addProgramOptions(CLI::App& app, ProgramContext& context)
         "  candelabra profile hall --lights 4000    time every pass of a frame\n"
         "  candelabra view hall --lights 4000       fly through the hall\n"
         "  candelabra help render                   list the options of one command\n"
-        "  candelabra examples                      write small example files here");
+        "  candelabra examples                      write small example files here\n\n"
+        "Exit codes: 0 done; 1 failed; 2 arguments or files that cannot be used; 3 different\n"
+        "(diff) or slower (compare); 4 compare cannot tell.\n\n"
+        "Pages about scenes, many machines, the lighting model and embedding are installed in\n"
+        "share/doc/candelabra.");
 }
 
 std::vector<const CLI::App*> partsOf(const CLI::App& app)

@@ -221,9 +221,9 @@ typedef struct CndLightingFrame {
     uint32_t frameSlot; // 0..framesInFlight-1; the GPU must have finished the slot's previous frame
     // The frame is a rectangle of its images: x and y are its top left pixel, for example that of a
     // half of a split screen or of a tile of an atlas. x + width and y + height are at most 16384
-    // and inside every image, which the module cannot check. clipFromView is the
-    // projection of the rectangle alone, and bruteRect counts from its corner. Its bits are the
-    // same wherever it is.
+    // and inside every image, which the module cannot check. clipFromView is the projection of the
+    // rectangle alone, and bruteRect counts from its corner. The lit pixels have the same bits
+    // wherever the rectangle lies.
     uint32_t x, y;
     uint32_t width, height; // pixels, 1..maxWidth and 1..maxHeight of the view
     CndCamera camera;

@@ -22,11 +22,6 @@ struct DiffArguments {
     std::string maxRelMse = "0";
 };
 
-bool isPng(const std::string& path)
-{
-    return lowerExtension(path) == ".png";
-}
-
 Image loadLinear(const std::string& path)
 {
     Image image = loadImageByExtension(path);
@@ -44,7 +39,7 @@ Image loadLinear(const std::string& path)
 Image loadPicture(const std::string& path)
 {
     try {
-        if (!isPng(path))
+        if (!isDisplayName(path))
             return loadLinear(path);
         const DisplayImage picture = loadPng(path);
         Image out{.width = picture.width, .height = picture.height, .channels = 3};
@@ -64,13 +59,13 @@ void requireComparable(const DiffArguments& args)
                 "diff: {}: a picture is a .png, .exr, .hdr or .pfm{}", path,
                 lowerExtension(path) == ".json" ? "; candelabra compare compares profiled runs"
                                                 : ""));
-    if (isPng(args.a) != isPng(args.b))
+    if (isDisplayName(args.a) != isDisplayName(args.b))
         throw UsageError(fmt::format(
             "diff: {} holds values of a display and {} linear radiance, which cannot be compared; "
             "give two .png files, or two of .exr, .hdr and .pfm",
-            isPng(args.a) ? args.a : args.b, isPng(args.a) ? args.b : args.a));
+            isDisplayName(args.a) ? args.a : args.b, isDisplayName(args.a) ? args.b : args.a));
     if (!args.output.empty()) {
-        if (!isPng(args.output))
+        if (!isDisplayName(args.output))
             throw UsageError("-o " + args.output + ": the name of a heat map must end in .png");
         requireWritable("-o", args.output);
     }
@@ -111,7 +106,7 @@ constexpr const char* channelNames[] = {"red", "green", "blue"};
 std::string figures(const DiffArguments& args, const PictureDifference& d, double flip)
 {
     const LargestDifference& most = d.largest;
-    const bool png = isPng(args.a);
+    const bool png = isDisplayName(args.a);
     const double scale = png ? 255 : 1;
     const std::string unit =
         fmt::format("{}{}", channelNames[most.channel], png ? " (of 255)" : "");
@@ -158,7 +153,7 @@ Json diffJson(const ProgramContext& program, const DiffArguments& args, const Im
             {"commandLine", program.commandLine},
             {"a", args.a},
             {"b", args.b},
-            {"values", isPng(args.a) ? "display" : "linear"},
+            {"values", isDisplayName(args.a) ? "display" : "linear"},
             {"widthPixels", b.width},
             {"heightPixels", b.height},
             {"sameBits", d.sameBits},
@@ -191,7 +186,7 @@ int diff(const ProgramContext& program, const DiffArguments& args)
                                      "compared",
                                      args.a, a.width, a.height, args.b, b.width, b.height));
     const PictureDifference d = pictureDifference(a, b);
-    const double flip = d.pixels ? pictureFlip(a, b, !isPng(args.a)) : 0;
+    const double flip = d.pixels ? pictureFlip(a, b, !isDisplayName(args.a)) : 0;
     const bool beyond = d.notFinitePixels || !(d.relMse <= maxRelMse);
     if (args.json != "-")
         writeText("-", answer(args, d, maxRelMse) + "\n" +

@@ -32,7 +32,7 @@ private:
     std::string before_;
 };
 
-// Adds the command `options`, which exists for its help alone: cli.cpp prints it.
+// Adds the command `options`, which runs nothing: cli.cpp prints its help.
 void addOptionsCommand(CLI::App& app);
 constexpr const char* optionsCommand = "options";
 

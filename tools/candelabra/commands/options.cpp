@@ -62,6 +62,19 @@ std::vector<uint32_t> unsignedListOption(const std::string& option, const std::s
     return out;
 }
 
+ShardNumber shardNumber(const std::string& text)
+{
+    if (text.empty())
+        return {};
+    const size_t slash = text.find('/');
+    const auto index = parseUnsigned(text.substr(0, slash));
+    const auto count =
+        slash == std::string::npos ? std::nullopt : parseUnsigned(text.substr(slash + 1));
+    if (!index || !count || *index < 1 || *count < *index || *count > maxSide)
+        throw UsageError("--shard \"" + text + "\": expected i/n with 1 <= i <= n, such as 2/8");
+    return {*index, *count};
+}
+
 PixelSize sizeOption(const std::string& option, const std::string& text)
 {
     const auto size = parseSize(text);
@@ -350,7 +363,8 @@ void FrameArguments::addShadingTo(CLI::App& command)
     specular = specularName(CND_SPECULAR_CONIC);
     addChoice(command, "--specular", specular, specularChoices,
               "method for the specular lobe; conic is the closed form, karis the representative "
-              "point of Karis 2013, and sampled takes random samples");
+              "point of Karis 2013, and sampled takes random samples; point, kx and conic-full "
+              "differ from karis and conic for spheres only");
     addOption(command, "--samples", sampleCount, "N",
               "samples per light and pixel of --specular sampled (1..4096)");
     const std::string what = "soft shadows of everything opaque, found for this many points of "
@@ -404,7 +418,9 @@ void FrameArguments::addDebugTo(CLI::App& command)
     const OptionGroup group(command, pictureGroup);
     addChoice(
         command, "--debug", heatMap, heatMapChoices,
-        "show in false colours what the lights cost each pixel, instead of the picture; "
+        "show in false colours what the lights cost each pixel, instead of the picture: "
+        "lights-per-pixel those in its list, evaluated those that it evaluates or waits for while "
+        "its neighbours do, efficiency the share of the listed ones that contribute; "
         "class shows whether a pixel uses the light list of its tile, that of a depth slice "
         "of its tile, or none and walks the light tree; shadow shows how much a pixel sees of "
         "its lights, and needs shadows");

@@ -24,6 +24,15 @@ struct ProgramContext {
     bool quiet = false;
 };
 
+// A part of work that several calls share: every count-th piece, starting with piece `index`, from
+// 1 on.
+struct ShardNumber {
+    uint32_t index = 1, count = 1;
+};
+
+// Returns the value of --shard, or all the work if it is empty. Throws UsageError.
+ShardNumber shardNumber(const std::string& text);
+
 struct DeviceArguments {
     std::string device;
     bool validate = false;

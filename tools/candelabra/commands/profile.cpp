@@ -278,11 +278,6 @@ ProfileResult measureProfile(const VulkanContext& context, Renderer& renderer, c
     if (!out.profile.settled)
         spdlog::warn("warning: times were not stable after {} of warming up; the machine is busy",
                      counted(out.profile.warmUpRounds, "frame"));
-    for (const FrameStats& frame : out.profile.last)
-        if (const uint32_t missing = frame.lighting.unlistedClusters; missing && p.whatIf)
-            spdlog::warn("warning: {} of clusters did not fit into memory, and the pairs of their "
-                         "pixels are not counted",
-                         counted(missing, "list"));
     if (p.whatIf)
         out.whatIf = {.lights = scene.lights.size(),
                       .changed = std::move(changed.changed),
@@ -368,11 +363,10 @@ void addProfileCommand(CLI::App& app, Run& run)
               "list the N lights that take the most shading time, with the pixels that they cover "
               "and the pairs of light and pixel that are evaluated for them");
     addOption(*command, "--what-if", a->whatIf, "CHANGE",
-              "predict the pairs of the first frame, by counting, and the times, by frames that "
-              "alternate, after a change of the lights that --light-costs lists, or of all lights "
-              "without it: influence=FACTOR multiplies their influence radii, radius=FACTOR their "
-              "sizes, off removes them; method=NAME evaluates all lights of the frame by that "
-              "--specular method");
+              "predict what a change of lights would do: count the pairs of the first frame, and "
+              "time frames with and without it alternately; CHANGE is influence=FACTOR (influence "
+              "radii), radius=FACTOR (sizes), off, or method=NAME (--specular of all lights); the "
+              "others apply to the lights that --light-costs lists, or else to all");
     addOption(*command, "--json", a->json, "FILE",
               "JSON file with a summary of all times and their provenance; - is standard output");
     command->add_flag("--append", a->append,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <set>
 
@@ -36,7 +37,7 @@ struct RenderArguments {
     SceneArguments scene;
     FrameArguments frame;
     std::string samples = "auto", bloom = "0", frames, time = "0", fps = "60", path = "still";
-    std::string json, pick;
+    std::string json, pick, shard;
     bool explain = false, edgeFilter = false;
     std::vector<std::string> outputs;
 };
@@ -145,6 +146,40 @@ float bloomOf(const RenderArguments& a)
     return float(share);
 }
 
+// Returns how many frames are drawn: all that --frames asks for, or those of the shard.
+FrameCounts frameCounts(const RenderArguments& a, bool sequence, bool byError)
+{
+    // After three frames both slots have an exposure, and the frame before has cut lights.
+    FrameCounts out{.warmUp = byError ? 3u : 1u};
+    if (!a.frames.empty())
+        out.measured = unsignedOption("--frames", a.frames, 1, 1'000'000);
+    const ShardNumber shard = shardNumber(a.shard);
+    if (!a.shard.empty() && !sequence)
+        throw UsageError("--shard: give -o a name with a place for the number of each frame, such "
+                         "as f.%04d.png");
+    if (!a.shard.empty() && byError)
+        throw UsageError("--shard: cannot be combined with --influence-error, which follows the "
+                         "exposure of the frame before");
+    if (shard.count > out.measured)
+        throw UsageError("--shard " + a.shard +
+                         ": there are more shards than frames, of which "
+                         "--frames asks for " +
+                         a.frames);
+    out.first = shard.index - 1;
+    out.step = shard.count;
+    return out;
+}
+
+// Throws UsageError if a shard would need the frames of other shards.
+void requireKnownExposure(const RenderArguments& a, const CndExposureSettings& exposure)
+{
+    if (!a.shard.empty() && !exposure.manual &&
+        std::any_of(a.outputs.begin(), a.outputs.end(), isDisplayName))
+        throw UsageError(
+            "--shard: the automatic exposure of a frame follows from the frames before "
+            "it; give --exposure EV");
+}
+
 RenderPlan planRender(const RenderArguments& a)
 {
     if (a.outputs.empty() && a.json.empty() && a.pick.empty() && !a.explain)
@@ -166,11 +201,7 @@ RenderPlan planRender(const RenderArguments& a)
             .frame = frame,
             .choosesShadows = !a.frame.shadowPoints(),
             .gbufferLayout = a.frame.gbufferLayout(),
-            // After three frames both slots have an exposure, and the frame before has cut lights.
-            .counts = {.warmUp = byError ? 3u : 1u,
-                       .measured = a.frames.empty()
-                                       ? 1
-                                       : unsignedOption("--frames", a.frames, 1, 1'000'000)},
+            .counts = frameCounts(a, sequence, byError),
             .samples = frameSamples(a, sequence),
             .sequence = sequence,
             .path = choose("--path", a.path, cameraPathChoices),
@@ -216,6 +247,35 @@ Json renderJson(const ProgramContext& program, const RenderArguments& a, const R
     return out;
 }
 
+// Says how many lights the pixels with a surface have, if the heat map shows that.
+std::string heatMapText(HeatMap which, const std::vector<glm::vec4>& pairs, PixelSize size)
+{
+    const bool listed = which == HeatMap::LightsPerPixel;
+    if (!listed && which != HeatMap::Evaluated)
+        return "";
+    std::vector<float> counts;
+    float most = -1;
+    size_t at = 0;
+    for (size_t i = 0; i < pairs.size(); ++i) {
+        if (pairs[i].w == 0) // no surface
+            continue;
+        counts.push_back(listed ? pairs[i].x : pairs[i].y);
+        if (counts.back() > most) {
+            most = counts.back();
+            at = i;
+        }
+    }
+    if (counts.empty())
+        return "no pixel has a surface\n";
+    const double mean = std::accumulate(counts.begin(), counts.end(), 0.0) / double(counts.size());
+    const auto p99 = counts.begin() + std::ptrdiff_t((counts.size() - 1) * 99 / 100);
+    std::nth_element(counts.begin(), p99, counts.end());
+    return fmt::format("A pixel with a surface {} {} lights on average; 99% of them have at most "
+                       "{}; the most are {}, at {},{}.\n",
+                       listed ? "lists" : "evaluates or waits for", threeDigits(mean), *p99, most,
+                       at % size.width, at / size.width);
+}
+
 // Prints and writes what is asked about the last frame, whose options are those of the plan.
 int reportLastFrame(const ProgramContext& program, const RenderArguments& a, const RenderPlan& p,
                     const VulkanContext& context, const Scene& scene, Renderer& renderer,
@@ -233,6 +293,8 @@ int reportLastFrame(const ProgramContext& program, const RenderArguments& a, con
         if (a.json != "-")
             writeText("-", influenceText(*cut));
     }
+    if (p.frame.heatMap != HeatMap::None && a.json != "-")
+        writeText("-", heatMapText(p.frame.heatMap, readPairs(context, renderer), renderer.size()));
     if (a.explain && a.json != "-") {
         writeText("-", planText(frames.last));
         if (p.frame.shadows)
@@ -260,19 +322,19 @@ void chooseShadows(const Scene& scene, PixelSize size, const VulkanContext& cont
         spdlog::info("{}", shadowsLeftOutText(seconds));
 }
 
-// Says what will be rendered. `onCpu`: a picture has one sample because the device is a CPU, and
-// its edges are filtered.
+// Says what will be rendered. `filters`: the edges of pictures are filtered, because the device is
+// a CPU and they have one sample.
 void printScene(const Scene& scene, PixelSize size, const VulkanContext& context, uint32_t samples,
-                bool onCpu)
+                bool filters)
 {
     spdlog::info("{}: {}, {}, {}x{}, {}, on {}", scene.name, counted(scene.lights.size(), "light"),
                  counted(scene.instances.size() + scene.analyticObjects.size(), "object"),
                  size.width, size.height,
                  samples > 1 ? fmt::format("{} samples per pixel", samples) : "1 sample per pixel",
                  context.info().name);
-    if (onCpu)
+    if (filters)
         spdlog::info("a filter smooths the edges of .png files, because the device is a CPU; --aa "
-                     "{} smooths better, and linear files too, in {} times the time",
+                     "{} is better and also smooths linear files, but takes {} times as long",
                      pictureSamples, pictureSamples);
 }
 
@@ -281,7 +343,7 @@ MeasuredFrames drawFrames(const ProgramContext& program, const RenderArguments& 
                           const RenderPlan& p, const Camera& first, bool moving,
                           const VulkanContext& context, Renderer& renderer)
 {
-    Progress progress(p.counts.warmUp + double(p.counts.measured) * p.counts.samples,
+    Progress progress(p.counts.warmUp + double(p.counts.drawn()) * p.counts.samples,
                       !program.quiet);
     progress.doing("rendering");
     FrameHooks hooks;
@@ -303,11 +365,14 @@ void writePictures(const RenderArguments& a, const RenderPlan& p, const VulkanCo
                    const Renderer& renderer)
 {
     if (p.sequence)
-        spdlog::info("wrote {}", counted(p.counts.measured, "frame"));
+        spdlog::info("wrote {}", counted(p.counts.drawn(), "frame"));
     else
         for (const std::string& output : a.outputs) {
             saveFrame(context, renderer, output);
-            spdlog::info("wrote {}", output);
+            spdlog::info("wrote {}{}", output,
+                         p.frame.heatMap != HeatMap::None && !isDisplayName(output)
+                             ? "; it has the radiance, because --debug changes only .png files"
+                             : "");
         }
 }
 
@@ -323,6 +388,7 @@ int render(const ProgramContext& program, const RenderArguments& a)
     p.frame.camera = first;
     const bool evIsGiven = p.frame.exposure.manual;
     useKnownExposure(scene, p.frame.exposure);
+    requireKnownExposure(a, p.frame.exposure);
     p.frame.lightsVisible = a.frame.lightsVisibleOverride().value_or(scene.lightsVisible);
     const PixelSize size = a.frame.pixelSize(scene, p.frame.camera);
     makeCamera(p.frame.camera,
@@ -334,8 +400,10 @@ int render(const ProgramContext& program, const RenderArguments& a)
     const VulkanContext context(a.device.contextOptions());
     const bool isGpu = context.info().type != VK_PHYSICAL_DEVICE_TYPE_CPU;
     p.counts.samples = p.samples.value_or(isGpu ? pictureSamples : 1);
-    p.frame.edgeFilter |= !p.samples && !isGpu;
-    printScene(scene, size, context, p.counts.samples, !p.samples && !isGpu);
+    const bool filters =
+        !p.samples && !isGpu && std::any_of(a.outputs.begin(), a.outputs.end(), isDisplayName);
+    p.frame.edgeFilter |= filters;
+    printScene(scene, size, context, p.counts.samples, filters);
     if (p.choosesShadows)
         chooseShadows(scene, size, context, p);
     if (p.frame.shadows)
@@ -353,8 +421,9 @@ int render(const ProgramContext& program, const RenderArguments& a)
         spdlog::info("{}", exposureText(p.frame.exposure, scene, evIsGiven, frames.last.exposure));
     writePictures(a, p, context, renderer);
     // What follows looks at the last frame.
-    p.frame.camera = cameraAt(first, p.path, p.counts.measured - 1, p.counts.measured);
-    p.frame.time += moving ? p.interval * (p.counts.measured - 1) : 0;
+    const uint32_t last = p.counts.first + (p.counts.drawn() - 1) * p.counts.step;
+    p.frame.camera = cameraAt(first, p.path, last, p.counts.measured);
+    p.frame.time += moving ? p.interval * last : 0;
     return reportLastFrame(program, a, p, context, scene, renderer, frames);
 }
 
@@ -364,8 +433,9 @@ void addPictureOptions(CLI::App& command, RenderArguments& a)
     addOption(command, "--aa", a.samples, "N|auto",
               "anti-aliasing: a frame is the mean of N samples, each shifted by part of a pixel "
               "and lit again; linear files get the mean radiance, pictures the mean light of the "
-              "display; auto is 16 for pictures on a GPU, 1 with --edge-filter on a CPU, and 1 for "
-              "several --frames that are only timed and with --debug or --influence-error");
+              "display; auto is 16 for pictures on a GPU; on a CPU it is 1, with --edge-filter; it "
+              "is also 1 for several --frames that are only timed, and with --edge-filter, --debug "
+              "or --influence-error");
     addOption(command, "--bloom", a.bloom, "SHARE",
               "share of the light, 0 to 1, that is spread over the picture as an eye scatters it, "
               "to make lamps look bright; 0.04 to 0.2 look natural; linear files and the metering "
@@ -400,6 +470,9 @@ void addRenderCommand(CLI::App& app, Run& run)
               "frames per second, for moving lights and for the adaptation of the eye");
     addOption(*command, "--time", a->time, "SECONDS",
               "scene time of the first frame in seconds, for --moving");
+    addOption(*command, "--shard", a->shard, "i/n",
+              "draw only every n-th frame, starting with frame i, so that n machines can share a "
+              "sequence");
     addOption(*command, "--json", a->json, "FILE",
               "JSON file with times, statistics and their provenance; - is standard output");
     addOption(*command, "--pick", a->pick, "X,Y",

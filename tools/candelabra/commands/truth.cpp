@@ -40,29 +40,12 @@ struct TruthArguments {
     FrameArguments frame; // only size, camera and visible lights are options of this command
 };
 
-struct ShardNumber {
-    uint32_t index = 1, count = 1;
-};
-
-ShardNumber shardNumber(const std::string& text)
-{
-    if (text.empty())
-        return {};
-    const size_t slash = text.find('/');
-    const auto index = parseUnsigned(text.substr(0, slash));
-    const auto count =
-        slash == std::string::npos ? std::nullopt : parseUnsigned(text.substr(slash + 1));
-    if (!index || !count || *index < 1 || *count < *index || *count > maxSide)
-        throw UsageError("--shard \"" + text + "\": expected i/n with 1 <= i <= n, such as 2/8");
-    return {*index, *count};
-}
-
 // Throws UsageError for display images: they have an exposure and eight bits, so they are not for
 // measuring. `whole`: no pixel is missing.
 void requireLinearImage(const std::string& path, bool whole)
 {
     requireImageExtension("-o", path);
-    if (lowerExtension(path) == ".png")
+    if (isDisplayName(path))
         throw UsageError("-o " + path + ": a truth is linear radiance; choose .exr, .hdr or .pfm");
     if (lowerExtension(path) == ".hdr" && !whole)
         throw UsageError("-o " + path +

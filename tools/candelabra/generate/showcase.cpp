@@ -187,8 +187,8 @@ Scene generateShowcase(const SceneOptions& options)
     std::vector<std::string> names;
     for (const uint32_t type : lamps)
         names.push_back(lightTypeLabel(type));
-    scene.notes.push_back("showcase, from left to right: " + listed(names) +
-                          "; from afar: a distant sphere behind them and a directional light");
+    scene.notes.push_back("the showcase has, from left to right, " + listed(names) +
+                          "; a distant sphere behind them and a directional light also light it");
     // All lamps fit if the picture is 16:9.
     scene.cameras = {makeUprightCamera("front", {0, 2.9, 10.6}, {0, -2.0, -10.6}, 0.62),
                      makeUprightCamera("above", {-2.5, 6.5, 4.2}, {0.4, -1.2, -0.75}, 0.8)};

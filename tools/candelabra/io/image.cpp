@@ -59,6 +59,11 @@ std::string lowerExtension(const std::string& path)
     return extension;
 }
 
+bool isDisplayName(const std::string& path)
+{
+    return lowerExtension(path) == ".png";
+}
+
 bool isPictureName(const std::string& path)
 {
     const std::string extension = lowerExtension(path);

@@ -54,6 +54,8 @@ void savePfm(const std::string& path, const Image& image);
 
 // Returns the extension of a file name, such as ".exr", in lower case.
 std::string lowerExtension(const std::string& path);
+// Whether the extension is that of display images, .png.
+bool isDisplayName(const std::string& path);
 // Whether the extension is one that pictures have: .png, .exr, .hdr or .pfm.
 bool isPictureName(const std::string& path);
 

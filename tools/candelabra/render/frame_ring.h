@@ -34,7 +34,8 @@ public:
     void submit(VkSemaphore wait = VK_NULL_HANDLE, VkSemaphore signal = VK_NULL_HANDLE);
     // Waits until begin() need not wait, but no longer than `most`. Returns whether that is so.
     bool waitForNext(std::chrono::nanoseconds most) const { return waitFor(current_, most); }
-    // The same for a slot: until the GPU has finished its frame.
+    // Waits, no longer than `most`, until the GPU has finished the frame of a slot, and returns
+    // whether it has.
     bool waitFor(uint32_t slot, std::chrono::nanoseconds most) const;
     // Waits until the GPU has finished the frame of a slot.
     void wait(uint32_t slot) const;

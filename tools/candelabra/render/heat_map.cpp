@@ -40,7 +40,7 @@ std::span<const LegendEntry> classesOf(HeatMap which)
 }
 
 // All lights from `most` on have the last colour.
-Legend countLegend(const char* title, uint32_t most, uint32_t scale)
+Legend countLegend(const char* title, uint32_t most, uint32_t zoom)
 {
     uint32_t unit = most; // a power of ten
     while (unit % 10 == 0)
@@ -50,12 +50,12 @@ Legend countLegend(const char* title, uint32_t most, uint32_t scale)
     for (uint32_t i = 0; i <= parts; ++i)
         marks.push_back(
             {float(i) / float(parts), grouped(most * i / parts) + (i == parts ? "+" : "")});
-    return barLegend(title, marks, scale);
+    return barLegend(title, marks, zoom);
 }
 
 } // namespace
 
-uint32_t heatMapMost(uint32_t scale)
+uint32_t heatMapScaleEnd(uint32_t scale)
 {
     constexpr uint32_t ends[] = {3, 5, 10, 15, 20}; // then the same times 10, and so on
     uint32_t out = ends[scale % 5];
@@ -67,23 +67,22 @@ uint32_t heatMapMost(uint32_t scale)
 Legend heatMapLegend(HeatMap which, PixelSize size, uint32_t most)
 {
     // Letters are at least 10 pixels high where the legend then fits.
-    const uint32_t scale =
-        std::max(1u, std::min(std::max(2u, size.height / 270), size.width / 200));
+    const uint32_t zoom = std::max(1u, std::min(std::max(2u, size.height / 270), size.width / 200));
     switch (which) {
     case HeatMap::LightsPerPixel:
-        return countLegend("lights in the list of the pixel", most, scale);
+        return countLegend("lights in the list of the pixel", most, zoom);
     case HeatMap::Evaluated:
-        return countLegend("lights evaluated, waiting included", most, scale);
+        return countLegend("lights evaluated, waiting included", most, zoom);
     case HeatMap::Efficiency:
         return barLegend("lights that contribute, of those listed",
                          {{0, "0%"}, {0.25f, "25%"}, {0.5f, "50%"}, {0.75f, "75%"}, {1, "100%"}},
-                         scale);
+                         zoom);
     case HeatMap::Shadow:
         return listLegend("shares of the lights of a pixel",
-                          {std::begin(visibilities), std::end(visibilities)}, scale);
+                          {std::begin(visibilities), std::end(visibilities)}, zoom);
     default:
         return listLegend("where a pixel finds its lights",
-                          {std::begin(pixelClasses), std::end(pixelClasses)}, scale);
+                          {std::begin(pixelClasses), std::end(pixelClasses)}, zoom);
     }
 }
 
@@ -110,10 +109,10 @@ HeatMapPass::HeatMapPass(const gpu::Device& device, PixelSize size, uint32_t fra
         for (const LegendEntry& c : classesOf(HeatMap(i)))
             all.push_back(packed(c.colour));
         for (uint32_t scale = 0; scale < gpu::HEAT_MAP_SCALES; ++scale)
-            all.push_back(heatMapMost(scale));
+            all.push_back(heatMapScaleEnd(scale));
         Legend legend;
         for (uint32_t scale = 0; scale < scales; ++scale) {
-            legend = heatMapLegend(HeatMap(i), size, heatMapMost(scale));
+            legend = heatMapLegend(HeatMap(i), size, heatMapScaleEnd(scale));
             all.insert(all.end(), legend.pixels.begin(), legend.pixels.end());
         }
         colours_[i] = {gpu::createBuffer(device, "heat map colours", all.size() * sizeof all[0],
@@ -141,13 +140,13 @@ void HeatMapPass::record(VkCommandBuffer cmd, uint32_t slot, HeatMap which, VkIm
                        Binding::of(gpu::HEAT_MAP_COUNTS, counts_)});
     gpu::Timer untimed;
     const gpu::Frame f{*device_, cmd, untimed, slot};
-    const auto dispatch = [&](uint32_t counts) {
+    const auto dispatch = [&](uint32_t onlyCounts) {
         f.barrier();
         kernel_.dispatch(f, sets_.set(slot),
                          {.size = {size_.width, size_.height},
                           .legendSize = colours.legendSize,
                           .which = uint32_t(which),
-                          .counts = counts},
+                          .onlyCounts = onlyCounts},
                          gpu::divideUp(size_.width, gpu::HEAT_MAP_GROUP),
                          gpu::divideUp(size_.height, gpu::HEAT_MAP_GROUP));
     };

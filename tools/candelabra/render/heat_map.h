@@ -22,9 +22,9 @@ enum class HeatMap : uint32_t {
 constexpr int heatMapCount = 6; // including None
 
 // Returns the number of lights at the end of a scale, for 0 <= scale < gpu::HEAT_MAP_SCALES. The
-// map of a frame has the first scale in which 99% of its pixels with a surface are, or else the
+// map of a frame has the smallest scale that holds 99% of its pixels with a surface, or else the
 // last.
-uint32_t heatMapMost(uint32_t scale);
+uint32_t heatMapScaleEnd(uint32_t scale);
 
 class HeatMapPass
 {

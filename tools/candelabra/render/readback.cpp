@@ -132,9 +132,20 @@ uint64_t readDrawnTriangles(const VulkanContext& context, const Renderer& render
     return sum;
 }
 
+std::vector<glm::vec4> readPairs(const VulkanContext& context, const Renderer& renderer)
+{
+    const gpu::Image& pairs = renderer.pairs();
+    const std::vector<uint8_t> bytes =
+        readTexels(context, pairs, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_GENERAL,
+                   {{0, 0}, {pairs.width, pairs.height}}, sizeof(glm::vec4));
+    std::vector<glm::vec4> out(bytes.size() / sizeof(glm::vec4));
+    std::memcpy(out.data(), bytes.data(), bytes.size());
+    return out;
+}
+
 void saveFrame(const VulkanContext& context, const Renderer& renderer, const std::string& path)
 {
-    if (lowerExtension(path) == ".png")
+    if (isDisplayName(path))
         savePng(path, renderer.size().width, renderer.size().height,
                 readDisplay(context, renderer));
     else

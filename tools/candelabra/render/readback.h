@@ -27,6 +27,10 @@ std::vector<uint8_t> readTexels(const VulkanContext& context, const gpu::Image& 
 Image readRadiance(const VulkanContext& context, const Renderer& renderer);
 std::vector<uint8_t> readDisplay(const VulkanContext& context, const Renderer& renderer);
 
+// Returns CndLightingFrame::pairImage of the last heat map, rows from the top. The GPU must have
+// finished the frame. Throws gpu::Failure.
+std::vector<glm::vec4> readPairs(const VulkanContext& context, const Renderer& renderer);
+
 // Returns the number of triangles of all instances that the last frame of the renderer drew, in
 // their levels of detail. The GPU must have finished the frame. Throws gpu::Failure.
 uint64_t readDrawnTriangles(const VulkanContext& context, const Renderer& renderer);

@@ -155,12 +155,15 @@ public:
     // Records a whole frame. The GPU must have finished the slot's previous frame. Radiance and
     // display image end in TRANSFER_SRC_OPTIMAL, visible to transfers.
     void record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& options);
-    // Record a frame in pieces, which may be spread over many submissions: recordUnlit the G-buffer
-    // and the environment. Then either recordBand lights rows, from the top to the bottom, and ends
-    // the frame as record() does with the last row. It needs no heat map and no influence by error.
-    // Only the exposure of its slot's statistics is that of the frame.
-    // Or, for checks, in slot 0: recordBruteRect lights a rectangle that overlaps no other by brute
-    // force, and recordBruteEnd leaves the radiance, but not the display image, as record() does.
+    // These record a frame in pieces, which may be spread over many submissions. recordUnlit comes
+    // first, and records the G-buffer and the environment. One of two ways lights it then.
+    //
+    // recordBand lights rows, from the top to the bottom. With the last row it ends the frame as
+    // record() does. The options have no heat map and no influence by error. Of the statistics of
+    // the slot, only the exposure describes the whole frame.
+    //
+    // For checks, in slot 0, recordBruteRect lights a rectangle that overlaps no other by brute
+    // force. recordBruteEnd then leaves the radiance, but not the display image, as record() does.
     void recordUnlit(VkCommandBuffer cmd, const FrameOptions& options, uint32_t slot = 0);
     void recordBand(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& options,
                     uint32_t firstRow, uint32_t endRow);

@@ -403,7 +403,7 @@ float legendHeight(const PanelState& state, const PanelFigures& figures)
 {
     if (state.frame.heatMap == HeatMap::None || !figures.size.height)
         return 0;
-    const Legend legend = heatMapLegend(state.frame.heatMap, figures.size, heatMapMost(0));
+    const Legend legend = heatMapLegend(state.frame.heatMap, figures.size, heatMapScaleEnd(0));
     return float(legend.height) * ImGui::GetIO().DisplaySize.y / float(figures.size.height);
 }
 

@@ -95,36 +95,35 @@ MeasuredFrames renderFrames(const VulkanContext& context, Renderer& renderer,
                             double interval)
 {
     FrameCollector frames(context, renderer);
-    FrameOptions frame = options;
     for (uint32_t i = 0; i < counts.warmUp; ++i) {
-        frames.draw(frame, false);
+        frames.draw(options, false);
         onFrame();
     }
     while (counts.warmUp && !frames.fits())
-        frames.draw(frame, false);
+        frames.draw(options, false);
     using Clock = std::chrono::steady_clock;
     for (const auto start = Clock::now();
          std::chrono::duration<double>(Clock::now() - start).count() < counts.warmUpSeconds;)
-        frames.draw(frame, false);
-    for (uint32_t i = 0; i < counts.measured; ++i) {
-        FrameOptions drawn = frame;
+        frames.draw(options, false);
+    for (uint32_t i = counts.first; i < counts.measured; i += counts.step) {
+        FrameOptions frame = options;
+        if (moving && i > 0) {
+            frame.time += interval * i;
+            frame.deltaTime = float(interval);
+            frame.resetExposure = false;
+        }
         if (hooks.finished)
             frames.wait(); // for the warm-up frames
         if (hooks.prepare)
-            hooks.prepare(i, drawn);
+            hooks.prepare(i, frame);
         for (uint32_t sample = 0; sample < counts.samples; ++sample) {
-            drawn.sample = {sample, counts.samples};
-            frames.draw(drawn, true);
+            frame.sample = {sample, counts.samples};
+            frames.draw(frame, true);
             onFrame();
         }
         if (hooks.finished) {
             frames.wait();
             hooks.finished(i);
-        }
-        if (moving) {
-            frame.time += interval;
-            frame.deltaTime = float(interval);
-            frame.resetExposure = false;
         }
     }
     frames.wait();

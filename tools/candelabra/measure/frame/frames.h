@@ -26,6 +26,10 @@ struct FrameCounts {
     // A measured frame is the mean of so many (FrameOptions::sample), and its time is their sum.
     // Warm-up frames have one sample.
     uint32_t samples = 1;
+    // Of the measured frames, only every `step`-th is drawn, starting with frame `first`.
+    uint32_t first = 0, step = 1;
+
+    uint32_t drawn() const { return (measured - first + step - 1) / step; }
 };
 
 struct MeasuredFrames {
@@ -42,7 +46,7 @@ struct FrameHooks {
 };
 
 // Renders frames through a frame ring with two slots. Warm-up frames and the first measured frame
-// show `options`. With `moving`, later frames are `interval` seconds apart and exposure adapts;
+// show `options`. With `moving`, measured frames are `interval` seconds apart and exposure adapts;
 // without it all frames are the same. If exposure converges at once (FrameOptions::resetExposure),
 // warm-up frames leave no trace in any image. `onFrame` is called after each sample of a frame is
 // submitted, except those of FrameCounts::warmUpSeconds. Returns when the GPU has finished.

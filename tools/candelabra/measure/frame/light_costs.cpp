@@ -86,19 +86,18 @@ std::vector<glm::vec4> drawAndReadPairs(const VulkanContext& context, Renderer& 
     frame.heatMap = HeatMap::Evaluated;
     frame.reuse = Reuse::None;
     FrameRing ring(context, 1);
-    do { // until the lists of lights have room: pairs of others are not counted
+    // Draws again until all light lists fit, because pairs of missing lists are not counted.
+    do {
         const auto [cmd, slot, reused] = ring.begin();
         renderer.record(cmd, slot, frame);
         ring.submit();
         ring.wait();
     } while (!renderer.fits(0));
-    const gpu::Image& pairs = renderer.pairs();
-    const std::vector<uint8_t> bytes =
-        readTexels(context, pairs, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_GENERAL,
-                   {{0, 0}, {pairs.width, pairs.height}}, sizeof(glm::vec4));
-    std::vector<glm::vec4> out(bytes.size() / sizeof(glm::vec4));
-    std::copy(bytes.begin(), bytes.end(), reinterpret_cast<uint8_t*>(out.data()));
-    return out;
+    if (const uint32_t missing = renderer.lightingStats(0).unlistedClusters)
+        spdlog::warn("warning: {} could not be made for lack of memory; the pairs of their pixels "
+                     "are not counted",
+                     counted(missing, "light list"));
+    return readPairs(context, renderer);
 }
 
 struct CostRow {
@@ -218,6 +217,7 @@ Table lightCostTable(const LightCosts& costs, const Scene& scene, size_t count, 
 {
     Table table({"light",
                  Column::words("type"),
+                 Column::words("position m"),
                  {"influence radius", "m"},
                  "pixels",
                  "of all",
@@ -225,9 +225,10 @@ Table lightCostTable(const LightCosts& costs, const Scene& scene, size_t count, 
                  "share",
                  {"time", "ms"}});
     const auto add = [&](const std::string& name, const std::string& type,
-                         const std::string& radius, uint64_t pixels, double pairs, double ms) {
+                         const std::string& position, const std::string& radius, uint64_t pixels,
+                         double pairs, double ms) {
         table.add(
-            {name, type, radius, pixels ? grouped(pixels) : "",
+            {name, type, position, radius, pixels ? grouped(pixels) : "",
              pixels ? fmt::format("{:.2f}%", 100.0 * double(pixels) / double(costs.surfaces)) : "",
              grouped(uint64_t(std::llround(pairs))),
              fmt::format("{:.2f}%", costs.pairs > 0 ? 100 * pairs / costs.pairs : 0.0),
@@ -238,7 +239,9 @@ Table lightCostTable(const LightCosts& costs, const Scene& scene, size_t count, 
     const std::vector<CostRow> rows = rowsOf(costs, count, shadingMs);
     for (const CostRow& row : rows) {
         const CndLight& light = scene.lights[row.light];
+        const glm::dvec3 at = scene.lightOrigin + vec(light.position);
         add(fmt::format("{}", row.light), lightTypeName(light.type),
+            cndIsDistant(light.type) ? "" : fmt::format("{:.2f}, {:.2f}, {:.2f}", at.x, at.y, at.z),
             threeDigits(double(light.influenceRadius)), row.pixels, row.pairs, row.ms);
         shown += row.pairs;
         named.push_back(row.light);
@@ -246,11 +249,12 @@ Table lightCostTable(const LightCosts& costs, const Scene& scene, size_t count, 
     const double perPair = costs.pairs > 0 ? shadingMs / costs.pairs : 0;
     table.rule();
     const double rest = costs.pairs - costs.others - shown;
-    add(counted(costs.lights.size() - rows.size(), "other light"), "", "", 0, rest, rest * perPair);
+    add(counted(costs.lights.size() - rows.size(), "other light"), "", "", "", 0, rest,
+        rest * perPair);
     if (costs.others > 0)
-        add("tiles without a light", "", "", 0, costs.others, costs.others * perPair);
-    table.add({"shading", "", "", "", "", grouped(uint64_t(std::llround(costs.pairs))), "100.00%",
-               threeDigits(shadingMs)});
+        add("tiles without a light", "", "", "", 0, costs.others, costs.others * perPair);
+    table.add({"shading", "", "", "", "", "", grouped(uint64_t(std::llround(costs.pairs))),
+               "100.00%", threeDigits(shadingMs)});
     if (shown > 0) {
         std::string who = namesOfLights(named, scene.lights.size());
         who[0] = char(std::toupper(who[0]));

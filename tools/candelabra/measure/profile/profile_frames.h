@@ -45,7 +45,8 @@ struct FrameSeries {
     // `previousDone` is the end of the previous frame.
     void add(const FrameStats& frame, const CpuSpans& cpu, CpuClock::time_point previousDone,
              double stampMs);
-    // The sum of the passes that evaluate the lights of clusters: shade_tiles and shade_unlisted.
+    // Returns, for each frame, the time in ms of the passes that evaluate the lights of clusters:
+    // shade_tiles and shade_unlisted.
     std::vector<double> shadingMs() const;
 };
 
@@ -72,7 +73,8 @@ struct ProfilingOverhead {
 struct ProfileSettings {
     // The variants are drawn in turn, and in the opposite order in every other round.
     std::vector<FrameOptions> variants;
-    // Draws all variants but the first, if it is not null. It must have as many slots.
+    // If it is not null, this renderer draws all variants but the first. It must have as many frame
+    // slots as the first.
     Renderer* other = nullptr;
     CameraPath path = CameraPath::Still;
     bool moving = false; // lights move; a round is a sixtieth of a second

@@ -61,8 +61,9 @@ void requireValid(const std::vector<CndLight>& lights, std::span<const uint32_t>
     const CndLight& light = lights[worst];
     const bool grows = whatIf.change == Change::Radius;
     const double limit = grows ? whatIf.factor / use(worst) : whatIf.factor * use(worst);
-    const std::string factor =
-        fmt::format("; take a factor {} {:.3g}", grows ? "below" : "above", limit);
+    // Three digits of the text may be rounded to the wrong side of the limit.
+    const std::string factor = fmt::format("; take a factor {} {:.3g}", grows ? "below" : "above",
+                                           limit * (grows ? 0.995 : 1.005));
     if (cndIsDistant(light.type))
         refuse(whatIf, fmt::format("light {} would be larger than the sky{}", worst, factor));
     refuse(whatIf,
@@ -88,7 +89,7 @@ std::string changeText(const PairedRatio& r)
     if (r.isSlower())
         return fmt::format("{} more time ({} to {})", percent(r.median), percent(r.low),
                            percent(r.high));
-    return fmt::format("about the same time ({} less to {} more)", percent(r.low), percent(r.high));
+    return fmt::format("between {} less and {} more time", percent(r.low), percent(r.high));
 }
 
 // "If light 7 (1 of 40) had ...": the condition of the sentence.
@@ -103,7 +104,7 @@ std::string conditionText(const WhatIf& whatIf, const WhatIfPairs& pairs)
     case Change::Radius:
         return fmt::format("If {} were {:g} times as large", lights, whatIf.factor);
     case Change::Off:
-        return fmt::format("Without {}", lights);
+        return "Without " + (pairs.changed.size() == pairs.lights ? "any light" : lights);
     case Change::Method:
         break;
     }
