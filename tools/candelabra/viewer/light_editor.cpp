@@ -447,10 +447,9 @@ bool lightWidgets(CndLight& light, bool& watts)
                                     ImGuiSliderFlags_AlwaysClamp);
     edited |= shapeWidgets(light);
     if (!cndIsDistant(light.type))
-        edited |=
-            ImGui::DragFloat("influence radius", &light.influenceRadius, 0.05f,
+        edited |= dragNumber("influence radius", light.influenceRadius,
                              std::max(cndEmitterBoundingRadius(&light) * influenceMargin, 0.01f),
-                             1e6f, "%.2f m", ImGuiSliderFlags_AlwaysClamp);
+                             1e6f, " m");
     return edited;
 }
 
@@ -468,7 +467,7 @@ void drawLightEditor(Scene& scene, LightEditor& editor)
         if (lightWidgets(*light, editor.watts))
             changed(editor, before, *light);
     } else {
-        ImGui::TextUnformatted("no light selected: click one, or Tab");
+        ImGui::TextUnformatted("click a light, or press Tab");
     }
     ImGui::EndDisabled();
 }

@@ -58,10 +58,9 @@ void drawTimes(const PanelFigures& figures)
     PassTimes times;
     for (const auto& frame : figures.passes)
         times.add(frame);
-    if (times.frames())
-        drawTimeLine(figures);
     if (!times.frames())
         return;
+    drawTimeLine(figures);
     ImGui::Text("of the last %zu frames drawn, %ux%u", times.frames(), figures.drawnSize.width,
                 figures.drawnSize.height);
     if (!ImGui::BeginTable("times", 3, ImGuiTableFlags_RowBg))
@@ -244,9 +243,9 @@ void drawLights(PanelState& state, const PanelFigures& figures)
 {
     const CndLightingStats& s = figures.lighting;
     if (s.tileCount && state.frame.culling == CND_CULLING_CLUSTERED)
-        ImGui::Text("list entries per tile: %.1f, longest list: %u%s",
-                    double(s.listEntries) / double(s.tileCount), s.maxListLength,
-                    s.unlistedClusters ? " (some clusters have no list)" : "");
+        ImGui::TextWrapped("list entries per tile: %.1f, longest list: %u%s",
+                           double(s.listEntries) / double(s.tileCount), s.maxListLength,
+                           s.unlistedClusters ? " (some clusters have no list)" : "");
     ImGui::Text("%s", counted(figures.lights, "light").c_str());
     ImGui::SameLine();
     if (ImGui::SmallButton("half"))
@@ -390,11 +389,6 @@ void drawExposure(PanelState& state, const PanelFigures& figures)
     ImGui::SliderFloat("bloom", &state.frame.bloom, 0, 0.2f, "%.3f", ImGuiSliderFlags_AlwaysClamp);
 }
 
-} // namespace
-
-namespace
-{
-
 // The size of the panel, in heights of a line of text.
 constexpr float panelWidth = 24.6f, leastHeight = 49;
 
@@ -449,8 +443,9 @@ void drawSections(PanelState& state, const PanelFigures& figures, Scene& scene, 
     ImGui::TextWrapped("%s, %ux%u, %s", figures.scene.c_str(), figures.size.width,
                        figures.size.height, figures.device.c_str());
     ImGui::TextWrapped("%s", stateOfPicture(figures).c_str());
-    ImGui::Text("%s drawn, the last two %s ms apart", counted(figures.frames, "frame").c_str(),
-                threeDigits(figures.wallMs).c_str());
+    ImGui::TextWrapped("%s drawn, the last two %s ms apart",
+                       counted(figures.frames, "frame").c_str(),
+                       threeDigits(figures.wallMs).c_str());
     ImGui::Text("camera %.1f m/s", figures.speed);
     ImGui::TextUnformatted("F2: keys and mouse");
 }

@@ -161,11 +161,6 @@ void Window::toggleFullScreen()
     }
 }
 
-void Window::setTitle(const std::string& title)
-{
-    glfwSetWindowTitle(window_, title.c_str());
-}
-
 void Window::poll()
 {
     glfwPollEvents();

@@ -63,7 +63,6 @@ public:
     void hide();
     void resize(PixelSize size); // of the image
     void toggleFullScreen();     // on the monitor that shows the middle of the window, and back
-    void setTitle(const std::string& title);
 
     // Adds what has happened to `events`.
     void poll();
