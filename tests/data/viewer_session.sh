@@ -33,7 +33,9 @@ window=$(timeout 120 xdotool search --sync --onlyvisible --name '^candelabra$' |
 xdotool windowfocus --sync $window
 complete "F2 lists keys"
 save # 1
-xdotool mousemove --window $window 160 185 key n
+xdotool mousemove --window $window 160 185 click 1
+logged " selected, of material "
+xdotool key n
 logged "^light 40 added"
 # By its handle y, upwards.
 xdotool mousemove --window $window 160 145 mousedown 1 mousemove --window $window 160 105 mouseup 1

@@ -12,6 +12,7 @@
 #include <sstream>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <stb_image.h>
 #include <sys/wait.h>
@@ -107,12 +108,16 @@ TEST(Viewer, IsDrivenByKeysAndMouse)
     EXPECT_EQ(shots[8].width, 260);
     EXPECT_EQ(shots[8].height, 180);
 
-    // The mouse dragged the new light up, and nowhere else.
-    std::smatch from, to;
+    // A bulb was added at the floor, as far as it gives 0.35 lx (a hundredth of what EV100 4 means
+    // for a grey card). The mouse dragged it up, and nowhere else.
+    std::smatch from, to, reach;
+    ASSERT_TRUE(std::regex_search(err, reach, std::regex("added: .*, influence radius (.*) m")));
+    EXPECT_NEAR(std::stod(reach[1]), 13.5, 0.051);
     const std::string place = " sphere at (.*), (.*), (.*) m, ";
     ASSERT_TRUE(std::regex_search(err, from, std::regex("light 40 added:" + place))) << err;
     ASSERT_TRUE(std::regex_search(err, to, std::regex("light 40 moved:" + place))) << err;
     EXPECT_EQ(from[1], to[1]);
+    EXPECT_NEAR(std::stod(from[2]), 0.05, 0.02);
     EXPECT_GT(std::stod(to[2]), std::stod(from[2]) + 0.1);
     EXPECT_EQ(from[3], to[3]);
 
@@ -282,8 +287,8 @@ constexpr KeyCheck keyChecks[] = {
     {KeyAction::SaveImage, "^wrote candelabra-[0-9]+[.]png$"},
     {KeyAction::SaveRadiance, "^wrote candelabra-[0-9]+[.]exr$"},
     {KeyAction::SaveScene, "^wrote candelabra-[0-9]+[.]json$"},
-    {KeyAction::FullScreen, "^full screen"},
-    {KeyAction::FullScreen, "^full screen"},
+    {KeyAction::FullScreen, "^full screen$"},
+    {KeyAction::FullScreen, "^a window again$"},
     {KeyAction::MoreLights, "^building hall with "},
     {KeyAction::FewerLights, "^building hall with "},
     // While the scene is built with more lights, the present ones cannot be edited.
@@ -323,6 +328,19 @@ TEST(Viewer, EveryKeyWorksAfter500RandomInputs)
         << textOf(dir / "err.txt") << textOf(dir / "log.txt");
     const std::string log = textOf(dir / "log.txt");
     ASSERT_NE(log.find("the checks begin"), std::string::npos);
+    using candelabra::app::loadScene;
+    const glm::dvec3 home = loadScene("hall", {.lights = 1}).cameras[0].position;
+    EXPECT_NE(log.find(fmt::format("at the camera of the beginning\n--camera {:.4f},{:.4f},{:.4f},",
+                                   home.x, home.y, home.z),
+                       log.find("the checks begin")),
+              std::string::npos);
+    // What is saved still has the bulb that was added first.
+    const std::string saved = linesWith(log, "wrote candelabra-").back().substr(6);
+    const CndLight bulb = loadScene((dir / saved).string(), {}).lights.back();
+    float lumens[3] = {};
+    EXPECT_EQ(cndLuminousPowerOfLight(&bulb, lumens, nullptr), CND_SUCCESS);
+    EXPECT_NEAR(lumens[0], 800, 0.1);
+    EXPECT_FLOAT_EQ(bulb.radius, 0.03f);
     // The lines say what the viewer holds: each of these keys has changed it.
     for (const char* start : {"--camera ", "exposure compensation "}) {
         const std::vector<std::string> lines = linesWith(log, start);

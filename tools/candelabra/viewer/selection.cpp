@@ -45,7 +45,8 @@ public:
             }
         if (!corner)
             return;
-        const ImVec2 place{corner->x + 4 * width_, corner->y - ImGui::GetFontSize()};
+        const ImVec2 place{corner->x + 4 * width_, // inside of the window, if the lines are not
+                           std::max(corner->y - ImGui::GetFontSize(), 0.0f)};
         list_->AddText({place.x + 1, place.y + 1}, IM_COL32(0, 0, 0, 255), text.c_str());
         list_->AddText(place, colour, text.c_str());
     }
@@ -75,7 +76,8 @@ std::vector<glm::dvec3> cornersOf(const Bounds& bounds)
 }
 
 void drawSelection(const PanelState& state, const Projection& view,
-                   const std::optional<CndLight>& light, const glm::dvec3& lightOrigin)
+                   const std::optional<CndLight>& light, const glm::dvec3& lightOrigin,
+                   const std::optional<LightHandles>& handles)
 {
     constexpr ImU32 lightColour = IM_COL32(90, 255, 130, 255);
     constexpr ImU32 objectColour = IM_COL32(120, 200, 255, 255);
@@ -83,7 +85,8 @@ void drawSelection(const PanelState& state, const Projection& view,
     if (light) {
         const auto outline = outlineOf(*light, lightOrigin, view);
         lines.draw(outline, lightColour);
-        lines.name(outline, "light " + std::to_string(*state.editor.selected), lightColour);
+        lines.name(handles ? std::vector(1, handles->outlineOf(2)) : outline,
+                   "light " + std::to_string(*state.editor.selected), lightColour);
     } else if (state.object) {
         const std::vector<glm::dvec3> corners = cornersOf(state.object->bounds);
         std::vector<std::vector<glm::dvec3>> edges;

@@ -16,9 +16,11 @@ struct PanelState;
 
 std::vector<glm::dvec3> cornersOf(const Bounds& bounds);
 
-// Draws the outline of the selected light, which is `light`, or of the selected object.
+// Draws the outline and the name of the selected light, which is `light`, or of the selected
+// object. The name of a light with handles is at the tip of handle y, where no other handle is.
 void drawSelection(const PanelState& state, const Projection& view,
-                   const std::optional<CndLight>& light, const glm::dvec3& lightOrigin);
+                   const std::optional<CndLight>& light, const glm::dvec3& lightOrigin,
+                   const std::optional<LightHandles>& handles);
 // Draws the handles of a light in the colours of their axes; `active`: the one under the mouse.
 void drawHandles(const LightHandles& handles, const Projection& view,
                  std::optional<uint32_t> active);

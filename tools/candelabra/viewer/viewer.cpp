@@ -144,7 +144,7 @@ void Viewer::takeLoaded()
     try {
         loaded = loader_.take();
     } catch (...) {
-        showError(messageOf(std::current_exception()));
+        showNote(messageOf(std::current_exception()), spdlog::level::err);
         panel_.wantedLights = uint32_t(scene_.lights.size());
         wantedScene_ = sceneName_;
         wantedOptions_ = sceneOptions_;

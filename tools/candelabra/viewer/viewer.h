@@ -10,6 +10,8 @@
 #include <set>
 #include <string>
 
+#include <spdlog/common.h>
+
 #include "generate/ray_caster.h"
 #include "render/renderer.h"
 #include "scene/scene_options.h"
@@ -83,13 +85,13 @@ private:
     bool onLightAction(KeyAction action);
     void escape();
     void close();
-    void showNote(const std::string& note);
-    void showError(const std::string& note);
+    void showNote(const std::string& note, spdlog::level::level_enum level = spdlog::level::debug);
     void showLightNote(const char* what);
     void toggleOrbit();
     void frameSelection();
     void frameScene();
     void goTo(const Camera& camera);
+    void printCamera() const;
     std::optional<LightHandles> handles() const;
     double clickSlack() const; // pixels by which a click may miss
     void dragHandle();

@@ -90,28 +90,6 @@ double diagonalOf(const Scene& scene)
     return glm::length(bounds.max - bounds.min);
 }
 
-bool editsLights(KeyAction action)
-{
-    switch (action) {
-    case KeyAction::AddLight:
-    case KeyAction::DuplicateLight:
-    case KeyAction::RemoveLight:
-    case KeyAction::ShrinkLight:
-    case KeyAction::GrowLight:
-    case KeyAction::Undo:
-    case KeyAction::Redo:
-    case KeyAction::LightAhead:
-    case KeyAction::LightBack:
-    case KeyAction::LightRight:
-    case KeyAction::LightLeft:
-    case KeyAction::LightUp:
-    case KeyAction::LightDown:
-        return true;
-    default:
-        return false;
-    }
-}
-
 } // namespace
 
 // Handles an event, or returns false if that has to wait for the next frame.
@@ -303,22 +281,13 @@ bool Viewer::isHeld(KeyAction action) const
     return false;
 }
 
-// Shows in a corner what was done, and prints it with --verbose.
-void Viewer::showNote(const std::string& note)
+// Shows in a corner what was done, and prints it, by default only with --verbose.
+void Viewer::showNote(const std::string& note, spdlog::level::level_enum level)
 {
     figures_.note = note;
     panel_.shownNote.clear(); // so that the same note is shown again
     settling_ = panelSettles;
-    spdlog::debug("{}", note);
-}
-
-// Shows in a corner what has failed, and prints it.
-void Viewer::showError(const std::string& note)
-{
-    figures_.note = note;
-    panel_.shownNote.clear();
-    settling_ = panelSettles;
-    spdlog::error("candelabra: {}", note);
+    spdlog::log(level, "{}{}", level == spdlog::level::err ? "candelabra: " : "", note);
 }
 
 void Viewer::onAction(KeyAction action)
@@ -336,8 +305,8 @@ void Viewer::onAction(KeyAction action)
         frameScene();
         break;
     case KeyAction::Home:
-        goTo(home_);
         spdlog::debug("at the camera of the beginning");
+        goTo(home_);
         break;
     case KeyAction::ListLights:
         pick_ = pixelUnderMouse();
@@ -363,7 +332,7 @@ void Viewer::onAction(KeyAction action)
         break;
     case KeyAction::FullScreen:
         window_.toggleFullScreen();
-        spdlog::debug("full screen, or a window again");
+        spdlog::debug(glfwGetWindowMonitor(window_.get()) ? "full screen" : "a window again");
         break;
     case KeyAction::Quit:
         escape();
@@ -449,15 +418,19 @@ void Viewer::showLightNote(const char* what)
     if (!panel_.editor.selected)
         return showNote("no light is selected: click one, or Tab");
     const CndLight& light = scene_.lights[*panel_.editor.selected];
-    const std::string place = cndIsDistant(light.type)
-                                  ? "infinitely far away"
-                                  : fmt::format("at {:.2f}, {:.2f}, {:.2f} m",
-                                                scene_.lightOrigin.x + double(light.position[0]),
-                                                scene_.lightOrigin.y + double(light.position[1]),
-                                                scene_.lightOrigin.z + double(light.position[2]));
-    const bool round = cndLightFields(light.type) & CND_LIGHT_FIELD_RADIUS_BIT;
-    spdlog::debug("light {} {}: {} {}{}", *panel_.editor.selected, what, lightTypeLabel(light.type),
-                  place, round ? fmt::format(", radius {:.4g}", light.radius) : "");
+    std::string text = lightTypeLabel(light.type);
+    if (cndIsDistant(light.type))
+        text += " infinitely far away";
+    else
+        text += fmt::format(" at {:.2f}, {:.2f}, {:.2f} m",
+                            scene_.lightOrigin.x + double(light.position[0]),
+                            scene_.lightOrigin.y + double(light.position[1]),
+                            scene_.lightOrigin.z + double(light.position[2]));
+    if (cndLightFields(light.type) & CND_LIGHT_FIELD_RADIUS_BIT)
+        text += fmt::format(", radius {:.4g}", light.radius);
+    if (!cndIsDistant(light.type))
+        text += fmt::format(", influence radius {:.3g} m", light.influenceRadius);
+    spdlog::debug("light {} {}: {}", *panel_.editor.selected, what, text);
 }
 
 // Handles the keys of lights; returns true if `action` is one of them. Lights move along the
@@ -465,7 +438,7 @@ void Viewer::showLightNote(const char* what)
 bool Viewer::onLightAction(KeyAction action)
 {
     LightEditor& editor = panel_.editor;
-    if (rebuilds() && editsLights(action)) {
+    if (rebuilds() && action >= KeyAction::AddLight && action <= KeyAction::Redo) {
         showNote(editorLocked);
         return true;
     }
@@ -582,13 +555,22 @@ void Viewer::frameSelection()
     const Camera fitted = fitCamera(cornersOf({middle - shown, middle + shown}), camera,
                                     double(size.width) / size.height);
     const double depth = glm::dot(half, glm::abs(camera.forward));
-    goTo(beforeOccluders(fitted, middle - depth * camera.forward, rays()));
     spdlog::debug("{} is framed", what);
+    goTo(beforeOccluders(fitted, middle - depth * camera.forward, rays()));
 }
 
 void Viewer::goTo(const Camera& camera)
 {
     camera_ = FlyCamera(camera, camera_.speed());
+    printCamera();
+}
+
+void Viewer::printCamera() const
+{
+    const Camera camera = cameraOfWindow();
+    const glm::dvec3 p = camera.position, to = p + camera.forward;
+    spdlog::debug("--camera {:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4g}", p.x, p.y, p.z, to.x,
+                  to.y, to.z, glm::degrees(camera.verticalFov));
 }
 
 RayCaster& Viewer::rays()
@@ -609,9 +591,8 @@ void Viewer::frameScene()
         return goTo(inside == scene_.cameras.end() ? scene_.cameras.front() : *inside);
     }
     const PixelSize size = swapchain_.size();
-    const Camera fitted = fitCamera(scene_, {0, scene_.instances.size()}, camera_.camera(),
-                                    double(size.width) / size.height);
-    goTo(fitted);
+    goTo(fitCamera(scene_, {0, scene_.instances.size()}, camera_.camera(),
+                   double(size.width) / size.height));
 }
 
 // Returns the camera as a picture of the window's size shows it.
@@ -747,11 +728,9 @@ void Viewer::save(const char* extension, const std::function<void(const std::str
     ring_.wait();
     try {
         write(path);
-        figures_.note = "wrote " + path;
-        settling_ = panelSettles;
-        spdlog::info("{}", figures_.note);
+        showNote("wrote " + path, spdlog::level::info);
     } catch (const std::runtime_error& error) {
-        showError(error.what());
+        showNote(error.what(), spdlog::level::err);
     }
 }
 
@@ -831,12 +810,8 @@ void Viewer::moveCamera(double seconds)
                                  heldKeys_.contains(GLFW_KEY_RIGHT_SHIFT)};
     camera_.update(input, seconds);
     const bool moves = input.move != glm::dvec3(0) || input.look != glm::dvec2(0);
-    if (std::exchange(moved_, moves) && !moves) {
-        const Camera camera = cameraOfWindow();
-        const glm::dvec3 p = camera.position, to = p + camera.forward;
-        spdlog::debug("--camera {:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4g}", p.x, p.y, p.z,
-                      to.x, to.y, to.z, glm::degrees(camera.verticalFov));
-    }
+    if (std::exchange(moved_, moves) && !moves)
+        printCamera();
 }
 
 void Viewer::drawOverlay()
@@ -844,15 +819,16 @@ void Viewer::drawOverlay()
     if (panel_.editor.selected) // by a key or by the panel
         panel_.object.reset();
     panel_.editor.locked = rebuilds();
-    drawSelection(panel_, projection(), selectedNow(), scene_.lightOrigin);
-    if (const auto grips = handles())
+    const auto grips = handles();
+    drawSelection(panel_, projection(), selectedNow(), scene_.lightOrigin, grips);
+    if (grips)
         drawHandles(*grips, projection(),
                     handleDrag_   ? handleDrag_->handle
                     : dragButton_ ? std::nullopt
                                   : grips->at(projection(), mouseInPicture(), clickSlack()));
     if (asks_)
         drawMessage(std::string("The ") + unsaved + ".",
-                    "F5 saves them, Esc closes without, another key goes on.");
+                    "F5 saves them, Esc closes without saving, any other key goes back.");
     drawPanel(panel_, figures_, scene_);
     constexpr double unseen = 0.1; // s; what takes less time is not worth a bar
     if (!loader_.busy() && work_.busy() && work_.seconds() > unseen)

@@ -180,7 +180,7 @@ void Viewer::takeWork()
             panel_.materialsChosen = true; // still
     } catch (...) {
         takeBack_();
-        showError(messageOf(std::current_exception()));
+        showNote(messageOf(std::current_exception()), spdlog::level::err);
     }
     made_.reset();
     madeSide_.reset();
