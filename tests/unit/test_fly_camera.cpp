@@ -116,4 +116,7 @@ TEST(BeforeOccluders, StandsWhereNothingHidesTheFront)
     camera.position = {0, 0, 3.5}; // before the ball
     EXPECT_EQ(beforeOccluders(camera, {0, 0, 1}, rays), camera);
     EXPECT_EQ(beforeOccluders(camera, {9, 0, 1}, rays), camera); // nothing hides it
+    // The front may be on a surface, here that of the ball.
+    camera.position = {0, 0, 20};
+    EXPECT_EQ(beforeOccluders(camera, {0, 0, 6}, rays), camera);
 }

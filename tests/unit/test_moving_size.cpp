@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests when the viewer draws at half width and height.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "viewer/moving_size.h"
@@ -72,6 +76,38 @@ TEST(MovingSize, FollowsTheChoice)
     EXPECT_FALSE(isHalfAfter(size, 30, quickTime, false, WhileMoving::Half));
     EXPECT_FALSE(isHalfAfter(size, 20, slowTime, true, WhileMoving::Full));
     EXPECT_EQ(halfOf({5, 4}), (candelabra::app::PixelSize{3, 2}));
+}
+
+// Draws a picture in pieces. Returns how many they are, and the time in s of the longest. The rows
+// of its lower half take `row` s each, those of the upper half a tenth of it.
+std::pair<int, double> drawPieces(PieceRows& rows, uint32_t height, double row)
+{
+    int count = 0;
+    double longest = 0;
+    for (uint32_t first = 0, end = 0; first < height; first = end, ++count) {
+        end = rows.endOf(first, height);
+        double seconds = 0;
+        for (uint32_t y = first; y < end; ++y)
+            seconds += y < height / 2 ? row / 10 : row;
+        rows.took(seconds);
+        longest = std::max(longest, seconds);
+    }
+    return {count, longest};
+}
+
+TEST(PieceRows, TakeAboutAsLongAsTheyShould)
+{
+    for (const uint32_t height : {1u, 7u, 540u, 720u, 2160u})
+        for (const double row : {1e-7, 1e-4, 1e-3, 4e-3}) {
+            SCOPED_TRACE(testing::Message() << height << " rows, " << row << " s each");
+            PieceRows rows;
+            for (int i = 0; i < 12; ++i)
+                drawPieces(rows, height, row);
+            const auto [count, longest] = drawPieces(rows, height, row);
+            EXPECT_LE(longest, 1.1 * PieceRows::pieceTime);
+            // They are not much shorter than they may be.
+            EXPECT_LE(count, std::ceil(2.5 * height * row / PieceRows::pieceTime) + 1);
+        }
 }
 
 } // namespace

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/moving_size.h"
 
+#include <algorithm>
+#include <limits>
+#include <utility>
+
 namespace candelabra::app
 {
 
@@ -26,6 +30,27 @@ void MovingSize::advance(double seconds, bool moves, WhileMoving choice)
 void MovingSize::drew(bool lit)
 {
     litFrames_ = lit ? litFrames_ + 1 : 0;
+}
+
+uint32_t PieceRows::endOf(uint32_t first, uint32_t height)
+{
+    if (first == 0) {
+        rows_ = std::max(rows_, uint32_t(std::min(slowest_, 2.0 * rows_)));
+        slowest_ = std::numeric_limits<double>::max();
+    }
+    rows_ = std::min(std::max(rows_, 8u), height);
+    drawn_ = std::min(rows_, height - first);
+    return first + drawn_;
+}
+
+void PieceRows::took(double seconds)
+{
+    const uint32_t drawn = std::exchange(drawn_, 0);
+    if (2 * drawn < rows_) // too short to tell anything
+        return;
+    const double fits = drawn * pieceTime / std::max(seconds, 1e-6);
+    slowest_ = std::min(slowest_, fits);
+    rows_ = uint32_t(std::clamp(fits, 0.5 * rows_, double(rows_)));
 }
 
 } // namespace candelabra::app

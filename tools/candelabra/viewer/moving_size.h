@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // MovingSize decides whether the viewer draws at half width and height: on slow devices while the
-// user moves. It needs no window.
+// user moves. PieceRows decides how many rows of a picture it draws at a time. Neither needs a
+// window.
 #pragma once
 
 #include <cstdint>
@@ -53,6 +54,24 @@ private:
     bool half_ = false;
     double stillSeconds_ = stillTime;
     uint32_t stillFrames_ = stillFrames;
+};
+
+// Chooses how many rows of a picture each piece has, so that a piece takes about `pieceTime`, and
+// input is answered between two pieces.
+class PieceRows
+{
+public:
+    static constexpr double pieceTime = 0.05; // s
+
+    // Returns the end of the piece that begins with row `first` of a picture.
+    uint32_t endOf(uint32_t first, uint32_t height);
+    // Call it when the piece has been drawn. Pieces become shorter at once. They become longer only
+    // with the next picture, and only as far as its slowest rows allow.
+    void took(double seconds);
+
+private:
+    uint32_t rows_ = 64, drawn_ = 0;
+    double slowest_ = 64; // rows that take pieceTime where the picture takes longest
 };
 
 } // namespace candelabra::app

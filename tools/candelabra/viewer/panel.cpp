@@ -137,7 +137,8 @@ void drawObject(const SelectedObject& object, const Scene& scene)
                            texture(m.emissiveTexture));
 }
 
-// The list of the scene's cameras. It shows the one that the view began with.
+// Draws the list of the scene's cameras. Its preview is the last camera that was chosen, even after
+// the view has moved.
 void drawCameras(PanelState& state, const Scene& scene)
 {
     const auto name = [](const Camera& camera) {

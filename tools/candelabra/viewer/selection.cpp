@@ -113,11 +113,13 @@ void drawHandles(const LightHandles& handles, const Projection& view,
 Camera beforeOccluders(Camera fitted, const glm::dvec3& front, RayCaster& rays)
 {
     const double away = glm::dot(front - fitted.position, fitted.forward);
-    const auto hit = rays.cast({front, -fitted.forward});
-    if (!hit || hit->distance >= away)
+    const double gap = std::max(1e-3 * away, 1e-3); // because `front` may be on a surface
+    const auto hit = rays.cast({front - gap * fitted.forward, -fitted.forward});
+    if (!hit || gap + hit->distance >= away)
         return fitted;
-    fitted.position = front - 0.9 * hit->distance * fitted.forward;
-    fitted.nearPlane = std::min(fitted.nearPlane, 0.05 * hit->distance);
+    const double room = gap + hit->distance;
+    fitted.position = front - 0.9 * room * fitted.forward;
+    fitted.nearPlane = std::min(fitted.nearPlane, 0.05 * room);
     return fitted;
 }
 

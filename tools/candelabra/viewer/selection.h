@@ -25,8 +25,8 @@ void drawSelection(const PanelState& state, const Projection& view,
 void drawHandles(const LightHandles& handles, const Projection& view,
                  std::optional<uint32_t> active);
 
-// Moves a camera, which was fitted to something, forward to where no surface lies between it and
-// `front`, a point in front of that. `rays` cast into the scene.
+// Moves a camera that was fitted to an object forward until no surface hides `front`, the nearest
+// point of the object's bounds. `rays` must belong to the same scene.
 Camera beforeOccluders(Camera fitted, const glm::dvec3& front, RayCaster& rays);
 
 } // namespace candelabra::app

@@ -35,8 +35,6 @@ constexpr ImageAccess shown{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, 0,
 // cursor blinks in a field.
 constexpr double widgetTime = 0.05;
 
-// Time in s that a piece of a picture is to take (Viewer::Picture).
-constexpr double pieceTime = 0.05;
 using Clock = std::chrono::steady_clock;
 
 // Blits the columns first .. end - 1 of the window's image, which has the size `window`, from the
@@ -180,8 +178,10 @@ void Viewer::show(std::unique_ptr<LoadedScene> loaded)
     sceneOptions_ = loaded->request.options;
     wantedScene_ = sceneName_;
     wantedOptions_ = sceneOptions_;
-    if (kept == Kept::Nothing)
-        camera_ = FlyCamera(home_ = loaded->view.camera, cruisingSpeed(scene_));
+    if (kept == Kept::Nothing) {
+        home_ = loaded->view.camera;
+        camera_ = FlyCamera(home_, cruisingSpeed(scene_));
+    }
     seenFrom_ = camera_.camera();
     shownLeft_ = loadingShading_;
     lightsEdited_ = kept == Kept::CameraAndLights;
@@ -193,6 +193,7 @@ void Viewer::show(std::unique_ptr<LoadedScene> loaded)
 void Viewer::takeScene(Kept kept)
 {
     materials_ = scene_.materials;
+    handleDrag_.reset();
     if (kept != Kept::CameraAndLights) {
         ownLights_ = scene_.lights.size() - sceneOptions_.lights.value_or(0);
         panel_.editor = {.watts = panel_.editor.watts}; // the unit stays as the user chose it
@@ -411,7 +412,7 @@ bool Viewer::recordPiece(const FrameRing::Frame& frame)
 {
     Picture& p = *picture_;
     const uint32_t height = renderer_->size().height;
-    const uint32_t first = p.row.value_or(0), end = std::min(first + bandRows_, height);
+    const uint32_t first = p.row.value_or(0), end = p.row ? pieceRows_.endOf(first, height) : 0;
     const auto record = [&](Renderer& renderer, const FrameOptions& options) {
         if (p.row)
             renderer.recordBand(frame.cmd, frame.slot, options, first, end);
@@ -422,8 +423,7 @@ bool Viewer::recordPiece(const FrameRing::Frame& frame)
     if (right())
         record(*right(), *p.right);
     const bool last = p.row && end == height; // which also ends the picture
-    bandDrawn_ = p.row && !last ? end - first : 0;
-    p.row = p.row ? end : 0;
+    p.row = end;
     if (!last)
         return false;
     recorded_[frame.slot] = Recorded::LastPiece;
@@ -448,8 +448,8 @@ void Viewer::endPicture(const FrameRing::Frame& frame)
 // Records what the frame draws of the picture: all, a piece or nothing.
 void Viewer::recordNext(const FrameRing::Frame& frame)
 {
-    // A sample of what has changed since is of no use. A picture that answers the user is, because
-    // another one follows each change.
+    // A sample of a sum is dropped if something has changed since it began. A picture of one sample
+    // is finished, because otherwise steady changes would never show one.
     if (picture_ && ((picture_->sample.count > 1 && picture_->version != still_.version()) ||
                      picture_->right.has_value() != (right() != nullptr)))
         picture_.reset();
@@ -575,26 +575,31 @@ void Viewer::advance(double seconds, double wall)
     figures_.complete = still_.isComplete();
 }
 
-// Waits for the GPU and handles events meanwhile. Of pieces, one is drawn at a time, so that the
-// answer to an event comes next. Its time decides how many rows the following ones have.
+// Waits for the GPU. On slow devices only one piece is in flight at a time, so that the next
+// submission can answer an event.
 void Viewer::waitForGpu()
 {
     if (!movingSize_.isSlow())
         return screen_.waitForSlot();
     screen_.waitForAll();
-    if (!bandDrawn_)
-        return;
-    const double took = std::chrono::duration<double>(Clock::now() - submitted_).count();
-    const double rows = bandDrawn_ * std::clamp(pieceTime / took, 0.5, 2.0);
-    bandRows_ = std::max(uint32_t(rows) / 8 * 8, 8u);
-    bandDrawn_ = 0;
+    pieceRows_.took(std::chrono::duration<double>(Clock::now() - submitted_).count());
+}
+
+// Returns whether the viewer ends. If edits are not saved, closing the window asks first.
+bool Viewer::ends()
+{
+    if (!window_.wantsToClose() || asks_ || !hasUnsavedEdits())
+        return window_.wantsToClose();
+    glfwSetWindowShouldClose(window_.get(), GLFW_FALSE);
+    ask();
+    settling_ = panelSettles;
+    return false;
 }
 
 void Viewer::run()
 {
     Clock::time_point last = Clock::now();
-    for (uint32_t i = 0; !window_.wantsToClose() && (!options_.frames || i < options_.frames);
-         ++i) {
+    for (uint32_t i = 0; !ends() && (!options_.frames || i < options_.frames); ++i) {
         const bool waited = awaitEvents();
         waitForGpu();
         const PixelSize size = window_.framebufferSize();

@@ -84,7 +84,9 @@ private:
     bool onFrameAction(KeyAction action);
     bool onLightAction(KeyAction action);
     void escape();
+    void ask();
     void close();
+    bool hasUnsavedEdits() const;
     void showNote(const std::string& note, spdlog::level::level_enum level = spdlog::level::debug);
     void showLightNote(const char* what);
     void toggleOrbit();
@@ -172,6 +174,7 @@ private:
     void endPicture(const FrameRing::Frame& frame);
     bool drawsInPieces(const FrameSample& sample) const;
     void waitForGpu();
+    bool ends();
     void doRequests();
     void recordWindow(VkCommandBuffer cmd, const Swapchain::Target& target);
     gpu::Buffer recordScreenshot(VkCommandBuffer cmd, VkImage image) const;
@@ -215,8 +218,7 @@ private:
         std::optional<uint32_t> row{}; // the first row without light; empty: no surfaces yet
     };
     std::optional<Picture> picture_;
-    uint32_t bandRows_ = 64; // rows of a piece, so many that it takes about pieceTime
-    uint32_t bandDrawn_ = 0; // rows of the piece that the GPU draws now
+    PieceRows pieceRows_;
     std::chrono::steady_clock::time_point submitted_; // when the last frame was submitted
     bool hasPicture_ = false; // the display images of the renderers have a picture
     bool handled_ = false;    // an event was handled since the last frame
@@ -259,9 +261,9 @@ private:
     std::optional<int> dragButton_;
     double dragged_ = 0;
     glm::dvec2 look_{0};
-    // A drag of a handle of the selected light. All members but the first are as they were when the
-    // drag began.
+    // A drag of a handle. The last three members are as they were when the drag began.
     struct HandleDrag {
+        uint32_t index = 0;   // of the light, which stays selected, or the drag ends
         uint32_t handle = 0;  // the one that is dragged
         LightHandles handles; // of the light
         glm::dvec3 from;      // the point of the handle that was under the mouse
@@ -274,6 +276,7 @@ private:
     std::optional<RayCaster> rays_; // for the present scene; made when first needed
     bool knownExposure_ = false; // the exposure is Scene::knownEv100, which the user has not chosen
     std::string dropped_;        // path of a dropped file, to be opened before the next frame
+    std::string refusedDrop_;    // path of a dropped scene that would have replaced unsaved edits
     uint32_t savedFiles_ = 0;
     // Requests that doRequests() fulfils after this frame, or after the first one that is as the
     // user wants it: the extension of an image to save, saving the scene, the pixel whose lights

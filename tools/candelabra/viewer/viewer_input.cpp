@@ -162,14 +162,16 @@ bool Viewer::onKeyPressed(const InputEvent& event)
         return overlay_.pressKey(event);
     }
     const KeyBinding* binding = findBinding(key, event.modifiers);
+    if (asks_ && binding && binding->action == KeyAction::Quit && !event.repeat) {
+        close();
+        return true;
+    }
+    asks_ &= event.repeat;
     if (!binding || (event.repeat && !binding->repeats))
         return true;
     if (!event.repeat) {
-        panel_.editor.history.beginStep();
-        if (std::exchange(asks_, false) && binding->action == KeyAction::Quit) {
-            close();
-            return true;
-        }
+        if (!handleDrag_)
+            panel_.editor.history.beginStep();
         if (findBinding(key, 0) == binding) // Ctrl+D does not fly to the right, as D does
             heldKeys_.insert(key);
         freshKeys_.insert(key);
@@ -210,14 +212,16 @@ bool Viewer::onButton(const InputEvent& event)
         dragButton_ = event.code;
         dragged_ = 0;
     }
-    const auto grips = handles();
-    const auto handle = grips ? grips->at(projection(), place, clickSlack()) : std::nullopt;
+    const auto shown = handles();
+    const auto handle = shown ? shown->at(projection(), place, clickSlack()) : std::nullopt;
     if (handle && event.code == GLFW_MOUSE_BUTTON_LEFT) {
         panel_.editor.history.beginStep();
-        const float(&at)[3] = scene_.lights[*panel_.editor.selected].position;
-        handleDrag_ = HandleDrag{.handle = *handle,
-                                 .handles = *grips,
-                                 .from = *grips->pointOn(*handle, projection(), place),
+        const uint32_t index = *panel_.editor.selected;
+        const float(&at)[3] = scene_.lights[index].position;
+        handleDrag_ = HandleDrag{.index = index,
+                                 .handle = *handle,
+                                 .handles = *shown,
+                                 .from = *shown->pointOn(*handle, projection(), place),
                                  .light = {at[0], at[1], at[2]}};
     }
     return true;
@@ -264,9 +268,9 @@ void Viewer::dragHandle()
 {
     const HandleDrag& drag = *handleDrag_;
     const auto to = drag.handles.pointOn(drag.handle, projection(), mouseInPicture());
-    if (!to || !panel_.editor.selected || rebuilds())
+    if (!to || panel_.editor.selected != drag.index || rebuilds())
         return;
-    const float(&at)[3] = scene_.lights[*panel_.editor.selected].position;
+    const float(&at)[3] = scene_.lights[drag.index].position;
     moveLight(scene_, panel_.editor,
               drag.light + (*to - drag.from) - glm::dvec3(at[0], at[1], at[2]));
 }
@@ -305,7 +309,7 @@ void Viewer::onAction(KeyAction action)
         frameScene();
         break;
     case KeyAction::Home:
-        spdlog::debug("at the camera of the beginning");
+        spdlog::debug("the camera is back where it began");
         goTo(home_);
         break;
     case KeyAction::ListLights:
@@ -348,15 +352,25 @@ void Viewer::close()
     window_.close();
 }
 
+bool Viewer::hasUnsavedEdits() const
+{
+    return panel_.editor.history.state() != savedState_;
+}
+
+void Viewer::ask()
+{
+    asks_ = true;
+    spdlog::debug("{}", unsaved);
+}
+
 void Viewer::escape()
 {
     if (overlay_.listOpen()) {
         overlay_.endEditing();
     } else if (panel_.help) {
         panel_.help = false;
-    } else if (panel_.editor.history.state() != savedState_) {
-        asks_ = true;
-        spdlog::debug("{}", unsaved);
+    } else if (hasUnsavedEdits()) {
+        ask();
     } else {
         close();
     }
@@ -548,6 +562,7 @@ void Viewer::frameSelection()
         return frameScene();
     }
     Camera camera = camera_.camera();
+    camera.nearPlane = home_.nearPlane; // which framing only lowers
     if (const glm::dvec3 way = middle - camera.position; glm::length(way) > 1e-3)
         camera.forward = glm::normalize(way);
     camera = FlyCamera(camera, camera_.speed()).camera(); // A FlyCamera never looks straight down.
@@ -583,16 +598,18 @@ RayCaster& Viewer::rays()
 // Moves the camera back until it sees all of the scene; into a room, to its camera inside.
 void Viewer::frameScene()
 {
-    spdlog::debug("the whole scene is in view");
     if (scene_.interior) {
+        spdlog::debug("the camera is inside of the scene");
         const auto inside =
             std::find_if(scene_.cameras.begin(), scene_.cameras.end(),
                          [](const Camera& camera) { return camera.name == "inside"; });
         return goTo(inside == scene_.cameras.end() ? scene_.cameras.front() : *inside);
     }
+    spdlog::debug("the whole scene is in view");
     const PixelSize size = swapchain_.size();
-    goTo(fitCamera(scene_, {0, scene_.instances.size()}, camera_.camera(),
-                   double(size.width) / size.height));
+    Camera camera = camera_.camera();
+    camera.nearPlane = home_.nearPlane; // which framing only lowers
+    goTo(fitCamera(scene_, {0, scene_.instances.size()}, camera, double(size.width) / size.height));
 }
 
 // Returns the camera as a picture of the window's size shows it.
@@ -687,8 +704,8 @@ void Viewer::addLightInView()
 }
 
 // Returns the distance at which a bulb gives a hundredth of the illuminance with which a grey card
-// would have the luminance that the exposure is for now. That is at least 1 m, and at most the
-// diagonal of the scene if that is more.
+// would have the luminance that the current exposure shows as middle grey. The result is between
+// 1 m and the diagonal of the scene, or 1 m if the diagonal is shorter.
 float Viewer::influenceRadiusFor(float power) const
 {
     const double luminance = std::exp2(double(figures_.exposure.adaptedEv100)) / 8; // cd/m^2
@@ -706,6 +723,8 @@ void Viewer::onDrop(const std::string& path)
         // If a scene is being loaded, it gets the environment, and loading starts again.
         return open(wantedScene_, options, loader_.busy() ? loadingKept_ : Kept::CameraAndLights);
     }
+    if (hasUnsavedEdits() && std::exchange(refusedDrop_, path) != path)
+        return showNote(fmt::format("{}; drop {} again to open it without them", unsaved, path));
     options.lights.reset();
     open(path, options, Kept::Nothing);
 }
@@ -819,16 +838,17 @@ void Viewer::drawOverlay()
     if (panel_.editor.selected) // by a key or by the panel
         panel_.object.reset();
     panel_.editor.locked = rebuilds();
-    const auto grips = handles();
-    drawSelection(panel_, projection(), selectedNow(), scene_.lightOrigin, grips);
-    if (grips)
-        drawHandles(*grips, projection(),
+    const auto shown = handles();
+    drawSelection(panel_, projection(), selectedNow(), scene_.lightOrigin, shown);
+    if (shown)
+        drawHandles(*shown, projection(),
                     handleDrag_   ? handleDrag_->handle
                     : dragButton_ ? std::nullopt
-                                  : grips->at(projection(), mouseInPicture(), clickSlack()));
+                                  : shown->at(projection(), mouseInPicture(), clickSlack()));
     if (asks_)
         drawMessage(std::string("The ") + unsaved + ".",
-                    "F5 saves them, Esc closes without saving, any other key goes back.");
+                    "F5 saves them. Esc closes the window without saving. Any other key returns to "
+                    "the scene.");
     drawPanel(panel_, figures_, scene_);
     constexpr double unseen = 0.1; // s; what takes less time is not worth a bar
     if (!loader_.busy() && work_.busy() && work_.seconds() > unseen)
