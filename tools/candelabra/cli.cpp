@@ -88,9 +88,7 @@ Named namedCommands(const CLI::App& root, int argc, const char* const* argv)
         const auto parts = partsOf(*out.path.back());
         if (parts.empty())
             break;
-        const auto found = std::find_if(parts.begin(), parts.end(), [&](const CLI::App* part) {
-            return part->get_name() == argv[i];
-        });
+        const auto found = std::ranges::find(parts, argv[i], &CLI::App::get_name);
         if (found == parts.end()) {
             out.unknown = argv[i];
             break;
@@ -147,7 +145,7 @@ std::string optionSentence(const Named& named, int argc, const char* const* argv
         const std::string argument = argv[i], option = argument.substr(0, argument.find('='));
         const auto has = [&](const CLI::App* app) { return hasOption(*app, option); };
         if (option.size() < 2 || option[0] != '-' || said.find(option) == std::string::npos ||
-            std::any_of(named.path.begin(), named.path.end(), has))
+            std::ranges::any_of(named.path, has))
             continue;
         std::vector<std::string> known;
         for (const CLI::App* app : named.path)

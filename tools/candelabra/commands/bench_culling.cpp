@@ -47,7 +47,7 @@ CullingSettings settingsOf(const CullingArguments& a)
     s.shadows = choose("--shadows", a.shadows, shadowChoices);
     s.seed = unsignedOption("--seed", a.seed, 0, UINT32_MAX);
     s.bruteLimit = numberOption("--brute-limit", a.bruteLimit, 0, 1e6);
-    a.device.requireRoomFor(*std::max_element(s.lights.begin(), s.lights.end()));
+    a.device.requireRoomFor(*std::ranges::max_element(s.lights));
     return s;
 }
 

@@ -82,17 +82,16 @@ struct Statistic {
 
 Statistic statisticOf(const std::vector<ProfiledRun>& a, const std::vector<ProfiledRun>& b)
 {
-    const auto still = [](const ProfiledRun& run) { return run.still; };
-    return std::all_of(a.begin(), a.end(), still) && std::all_of(b.begin(), b.end(), still)
+    return std::ranges::all_of(a, &ProfiledRun::still) &&
+                   std::ranges::all_of(b, &ProfiledRun::still)
                ? Statistic{"min", &ProfiledTime::minMs}
                : Statistic{"median", &ProfiledTime::medianMs};
 }
 
 bool inAll(const std::vector<ProfiledRun>& runs, const std::string& name)
 {
-    return std::all_of(runs.begin(), runs.end(), [&](const ProfiledRun& run) {
-        return std::any_of(run.times.begin(), run.times.end(),
-                           [&](const ProfiledTime& t) { return t.name == name; });
+    return std::ranges::all_of(runs, [&](const ProfiledRun& run) {
+        return std::ranges::count(run.times, name, &ProfiledTime::name) > 0;
     });
 }
 
@@ -102,8 +101,7 @@ std::vector<double> timesOf(const std::vector<ProfiledRun>& runs, const std::str
 {
     std::vector<double> out;
     for (const ProfiledRun& run : runs) {
-        const auto row = std::find_if(run.times.begin(), run.times.end(),
-                                      [&](const ProfiledTime& t) { return t.name == name; });
+        const auto row = std::ranges::find(run.times, name, &ProfiledTime::name);
         out.push_back(row == run.times.end() ? 0 : (*row).*statistic.ms);
     }
     return out;
@@ -111,7 +109,7 @@ std::vector<double> timesOf(const std::vector<ProfiledRun>& runs, const std::str
 
 bool allPositive(const std::vector<double>& values)
 {
-    return std::all_of(values.begin(), values.end(), [](double v) { return v > 0; });
+    return std::ranges::all_of(values, [](double v) { return v > 0; });
 }
 
 // Returns the value that tables show for the times of one side: their geometric mean.
@@ -138,8 +136,7 @@ std::vector<ComparedRow> rowsOf(const std::vector<ProfiledRun>& a,
     for (const auto* side : {&a, &b})
         for (const ProfiledRun& run : *side)
             for (const ProfiledTime& time : run.times)
-                if (std::none_of(rows.begin(), rows.end(),
-                                 [&](const ComparedRow& r) { return r.name == time.name; }))
+                if (!std::ranges::count(rows, time.name, &ComparedRow::name))
                     rows.push_back({.name = time.name,
                                     .inA = inAll(a, time.name),
                                     .inB = inAll(b, time.name),
@@ -160,8 +157,7 @@ void putFirst(const std::string& pass, std::vector<ComparedRow>& rows)
         if (pass == whole.key)
             name = whole.name;
     }
-    const auto row = std::find_if(rows.begin(), rows.end(),
-                                  [&](const ComparedRow& r) { return r.name == name; });
+    const auto row = std::ranges::find(rows, name, &ComparedRow::name);
     for (const ComparedRow& one : rows)
         known.push_back(one.name);
     if (row == rows.end())

@@ -128,7 +128,7 @@ std::string HelpFormatter::options(const CLI::App& app) const
 {
     std::string explained, named;
     for (const std::string& group : app.get_groups())
-        if (std::find(sharedGroups.begin(), sharedGroups.end(), group) == sharedGroups.end())
+        if (std::ranges::find(sharedGroups, group) == sharedGroups.end())
             if (const auto own = optionsOf(app, group); !own.empty())
                 explained += make_group(group, false, own);
     for (const std::string_view group : sharedGroups) {

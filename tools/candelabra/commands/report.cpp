@@ -317,13 +317,11 @@ std::vector<PartChoice> chosenParts(const std::string& parts)
 {
     std::vector<PartChoice> out;
     for (const std::string& name : splitAtCommas(parts)) {
-        const auto* found = std::find_if(std::begin(partChoices), std::end(partChoices),
-                                         [&](const PartChoice& c) { return name == c.name; });
+        const auto* found = std::ranges::find(partChoices, name, &PartChoice::name);
         if (found == std::end(partChoices))
             throw UsageError(
                 fmt::format("--parts \"{}\": choose from {}", parts, ReportArguments().parts));
-        if (std::any_of(out.begin(), out.end(),
-                        [&](const PartChoice& c) { return name == c.name; }))
+        if (std::ranges::count(out, name, &PartChoice::name))
             throw UsageError(fmt::format("--parts \"{}\": {} is there twice", parts, name));
         out.push_back(*found);
     }

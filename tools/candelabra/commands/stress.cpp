@@ -81,7 +81,7 @@ std::vector<uint32_t> lightCounts(const StressArguments& a)
         if (std::find(counts.begin(), end, counts[i]) != end)
             throw UsageError(fmt::format("--lights {}: {} is listed twice", a.lights, counts[i]));
     }
-    a.device.requireRoomFor(*std::max_element(counts.begin(), counts.end()));
+    a.device.requireRoomFor(*std::ranges::max_element(counts));
     return counts;
 }
 
@@ -138,9 +138,7 @@ StressResult sweep(const ProgramContext& program, const StressArguments& a,
         for (const uint32_t count : counts)
             out.points.push_back(measureStressPoint(context, settings, count, progress));
     }
-    const auto most = std::max_element(
-        out.points.begin(), out.points.end(),
-        [](const StressPoint& x, const StressPoint& y) { return x.lights < y.lights; });
+    const auto most = std::ranges::max_element(out.points, {}, &StressPoint::lights);
     out.sentence = costSentence(most->cost(), conditionOf(a, settings, context));
     return out;
 }
@@ -191,7 +189,7 @@ StressResult search(const ProgramContext& program, const StressArguments& a,
     StressResult out;
     for (auto& [lights, point] : points)
         out.points.push_back(std::move(point));
-    const auto at = std::find_if(out.points.begin(), out.points.end(), [&](const StressPoint& p) {
+    const auto at = std::ranges::find_if(out.points, [&](const StressPoint& p) {
         return p.asked == found.lights.value_or(found.tried.front().lights);
     });
     out.sentence =

@@ -81,8 +81,8 @@ int merge(const TruthArguments& a)
     } catch (const ImageError& error) {
         throw UsageError(error.what());
     }
-    requireLinearImage(a.output, std::none_of(image.pixels.begin(), image.pixels.end(),
-                                              [](float x) { return std::isnan(x); }));
+    requireLinearImage(a.output,
+                       std::ranges::none_of(image.pixels, [](float x) { return std::isnan(x); }));
     saveImageByExtension(a.output, image);
     spdlog::info("wrote {} from {}", a.output, counted(shards.size(), "shard"));
     warnOfUnconverged(unconverged);

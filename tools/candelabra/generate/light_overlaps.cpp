@@ -54,8 +54,8 @@ std::vector<SurfaceSample> spreadSamples(const Scene& scene)
     Random random(0);
     for (uint32_t i = 0; i < spreadSampleCount; ++i) {
         const double at = area * (i + 0.5) / spreadSampleCount;
-        const size_t t = static_cast<size_t>(
-            std::lower_bound(areaUpTo.begin(), areaUpTo.end(), at) - areaUpTo.begin());
+        const size_t t =
+            static_cast<size_t>(std::ranges::lower_bound(areaUpTo, at) - areaUpTo.begin());
         const WorldTriangle& triangle = triangles[std::min(t, triangles.size() - 1)];
         glm::dvec2 uv(random.uniform2());
         uv = uv.x + uv.y > 1 ? 1.0 - uv : uv;

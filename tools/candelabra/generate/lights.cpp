@@ -184,7 +184,7 @@ namespace
 bool standsInFront(const Scene& scene, const LightSite& site)
 {
     constexpr double leastDistance = 60; // radii: an angle of 2 degrees
-    return std::any_of(scene.cameras.begin(), scene.cameras.end(), [&](const Camera& camera) {
+    return std::ranges::any_of(scene.cameras, [&](const Camera& camera) {
         const double distance = glm::length(site.position - camera.position);
         return !camera.orthographic && distance < leastDistance * double{site.radius};
     });

@@ -195,7 +195,7 @@ void furnish(RoomKit& kit, Random& random, uint32_t room)
 bool isInFurniture(const RoomKit& kit, uint32_t room, const glm::dvec3& position, double margin)
 {
     const auto& boxes = kit.furniture[room];
-    return std::any_of(boxes.begin(), boxes.end(), [&](const RoomBox& box) {
+    return std::ranges::any_of(boxes, [&](const RoomBox& box) {
         return glm::all(glm::greaterThan(position, box.low - margin)) &&
                glm::all(glm::lessThan(position, box.high + margin));
     });

@@ -142,7 +142,7 @@ void GltfAccessor::readSparse(const tinygltf::Accessor& accessor)
 const uint8_t* GltfAccessor::find(size_t i) const
 {
     if (!sparseIndices_.empty()) {
-        const auto it = std::lower_bound(sparseIndices_.begin(), sparseIndices_.end(), i);
+        const auto it = std::ranges::lower_bound(sparseIndices_, i);
         if (it != sparseIndices_.end() && *it == i)
             return sparseValues_.data +
                    static_cast<size_t>(it - sparseIndices_.begin()) * sparseValues_.stride;

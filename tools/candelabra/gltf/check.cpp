@@ -56,7 +56,7 @@ void visitIndices(const Json& value, std::span<const Field> fields, const auto& 
                 if (field.kind == Kind::Indices || field.kind == Kind::IndexMap)
                     reference(item);
                 else if (field.kind == Kind::IndexMaps)
-                    std::for_each(item.begin(), item.end(), reference);
+                    std::ranges::for_each(item, reference);
                 else if (field.kind == Kind::Objects)
                     visitIndices(item, field.fields, found);
     }
@@ -419,7 +419,7 @@ void Repairer::repairChoice(Json& owner, const std::string& path, const char* ke
                             const char* instead, std::initializer_list<Json> allowed)
 {
     const auto found = owner.find(key);
-    if (found == owner.end() || std::find(allowed.begin(), allowed.end(), *found) != allowed.end())
+    if (found == owner.end() || std::ranges::find(allowed, *found) != allowed.end())
         return;
     std::string names;
     for (const Json& one : allowed)

@@ -30,9 +30,9 @@ std::vector<glm::dvec3> worldPositions(const Mesh& mesh, const glm::dmat4& world
 
 glm::dvec3 farthest(const std::vector<glm::dvec3>& points, const auto& distance)
 {
-    return *std::max_element(
-        points.begin(), points.end(),
-        [&](const glm::dvec3& a, const glm::dvec3& b) { return distance(a) < distance(b); });
+    return *std::ranges::max_element(points, [&](const glm::dvec3& a, const glm::dvec3& b) {
+        return distance(a) < distance(b);
+    });
 }
 
 // Returns the rectangle that the triangles cover exactly once, if there is one.

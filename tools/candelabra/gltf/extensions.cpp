@@ -64,8 +64,7 @@ constexpr Gap gaps[] = {
 
 bool isReadWhole(const std::string& extension)
 {
-    return std::find(wholeExtensions.begin(), wholeExtensions.end(), extension) !=
-           wholeExtensions.end();
+    return std::ranges::find(wholeExtensions, extension) != wholeExtensions.end();
 }
 
 std::string quoted(const std::string& extension)
@@ -90,8 +89,7 @@ std::set<std::string> namesWithGaps(const JsonValue& document, const char* key)
 // Returns the gap that an extension leaves which is not one of wholeExtensions.
 Gap gapOf(const std::string& name)
 {
-    const auto known = std::find_if(std::begin(gaps), std::end(gaps),
-                                    [&](const Gap& gap) { return gap.extension == name; });
+    const auto known = std::ranges::find(gaps, name, &Gap::extension);
     return known == std::end(gaps) ? Gap{name, "what it adds is left out"} : *known;
 }
 

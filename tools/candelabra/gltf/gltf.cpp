@@ -173,7 +173,7 @@ void SceneBuilder::addInstance(const std::string& element, size_t gltfMesh, cons
     const auto& primitives = document_.model.meshes[gltfMesh].primitives;
     for (const tinygltf::Primitive& primitive : primitives)
         countLeftOut(primitive);
-    if (std::none_of(primitives.begin(), primitives.end(), hasTriangles))
+    if (std::ranges::none_of(primitives, hasTriangles))
         return;
     foundTriangles_ = true;
     const double determinant = glm::determinant(glm::dmat3(worldFromMesh));

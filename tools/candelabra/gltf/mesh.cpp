@@ -284,7 +284,7 @@ std::vector<uint32_t> PrimitiveReader::triangles(const std::vector<uint32_t>& co
 
 std::vector<uint32_t> PrimitiveReader::compact(std::vector<uint32_t>& indices) const
 {
-    const auto [low, high] = std::minmax_element(indices.begin(), indices.end());
+    const auto [low, high] = std::ranges::minmax_element(indices);
     const uint32_t first = *low;
     std::vector<uint32_t> newNumber(size_t{*high - first} + 1, unused);
     for (const uint32_t i : indices)

@@ -242,8 +242,8 @@ void ExrReader::readChannels()
     const std::span<const exr_attr_chlist_entry_t> channels(list->entries,
                                                             size_t(list->num_channels));
     const auto has = [&](std::string_view name) {
-        return std::any_of(channels.begin(), channels.end(),
-                           [&](const auto& channel) { return channel.name.str == name; });
+        return std::ranges::any_of(channels,
+                                   [&](const auto& channel) { return channel.name.str == name; });
     };
     image_.channels = has("R") && has("G") && has("B") ? 3 : 1;
     if (image_.channels == 1)

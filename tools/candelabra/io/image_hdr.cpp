@@ -109,7 +109,7 @@ void HdrReader::readVariable(std::string_view text)
     const auto isFactor = [](double x) { return x > 1e-30 && x < 1e30; };
     if (isPrimaries && !v.empty())
         primaries_ = {{v[0], v[1]}, {v[2], v[3]}, {v[4], v[5]}, {v[6], v[7]}};
-    else if (!isPrimaries && !v.empty() && std::all_of(v.begin(), v.end(), isFactor))
+    else if (!isPrimaries && !v.empty() && std::ranges::all_of(v, isFactor))
         applied_ *= isColour ? glm::dvec3(v[0], v[1], v[2]) : glm::dvec3(v[0]);
     else
         warn(std::string(name) + " of its header has no meaning and is ignored");

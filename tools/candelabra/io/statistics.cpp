@@ -42,13 +42,13 @@ size_t intervalRank(size_t n)
 
 double medianOf(std::vector<double> values)
 {
-    std::sort(values.begin(), values.end());
+    std::ranges::sort(values);
     return middleOf(values);
 }
 
 Spread spreadOf(std::vector<double> values)
 {
-    std::sort(values.begin(), values.end());
+    std::ranges::sort(values);
     const double n = double(values.size());
     const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
     double squares = 0;
@@ -73,7 +73,7 @@ std::optional<double> medianAboveNoise(const std::vector<double>& values)
 std::vector<double> differences(std::span<const double> a, std::span<const double> b)
 {
     std::vector<double> out(a.size());
-    std::transform(a.begin(), a.end(), b.begin(), out.begin(), std::minus<>());
+    std::ranges::transform(a, b, out.begin(), std::minus<>());
     return out;
 }
 
@@ -87,7 +87,7 @@ bool isNoisy(const std::vector<double>& values)
 
 MedianInterval medianInterval(std::vector<double> values)
 {
-    std::sort(values.begin(), values.end());
+    std::ranges::sort(values);
     // For more than 1,000 values 0.5^n may underflow; the binomial distribution of the rank is then
     // close to a normal one.
     const size_t n = values.size();

@@ -73,7 +73,7 @@ double step(double value, bool down)
 
 Axis axisOver(std::vector<double> values, double a, double b)
 {
-    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    const auto [low, high] = std::ranges::minmax_element(values);
     double from = step(*low, true), to = step(*high, false);
     if (to <= from * 1.5) { // one value: give it room on both sides
         from = step(from / 2, true);
@@ -188,8 +188,7 @@ struct Label {
 void spreadLabels(std::vector<Label>& labels)
 {
     constexpr double gap = 18; // pixels between baselines of 13 px text
-    std::stable_sort(labels.begin(), labels.end(),
-                     [](const Label& a, const Label& b) { return a.y < b.y; });
+    std::ranges::stable_sort(labels, {}, &Label::y);
     for (int round = 0; round < 200; ++round)
         for (size_t i = 1; i < labels.size(); ++i)
             if (const double lack = gap - (labels[i].y - labels[i - 1].y); lack > 0) {

@@ -75,7 +75,7 @@ std::string Table::firstCell(const Row& row) const
 std::vector<std::string> Table::allNotes() const
 {
     std::vector<std::string> out = notes_;
-    if (std::any_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.facts.noisy; }))
+    if (std::ranges::any_of(rows_, [](const Row& row) { return row.facts.noisy; }))
         out.push_back(noisyLegend());
     return out;
 }

@@ -103,7 +103,7 @@ std::string repairTexels(const std::string& file, Image& image)
     size_t nan = 0, infinite = 0, negative = 0, large = 0; // texels
     for (size_t i = 0; i < image.pixels.size(); i += image.channels) {
         const std::span<float> texel(&image.pixels[i], image.channels);
-        const auto has = [&](auto is) { return std::any_of(texel.begin(), texel.end(), is); };
+        const auto has = [&](auto is) { return std::ranges::any_of(texel, is); };
         nan += has([](float x) { return std::isnan(x); });
         infinite += has([](float x) { return x > FLT_MAX; });
         negative += has([](float x) { return x < 0; });
@@ -177,19 +177,18 @@ void describeEnvironment(Scene& scene)
 bool outshinesStudio(const Scene& scene, float white)
 {
     const float most = 4 * white; // cd/m^2
-    return std::any_of(scene.instances.begin(), scene.instances.end(),
-                       [&](const Instance& instance) {
-                           const Material& material = scene.materials[instance.material];
-                           const glm::vec3& e = material.emission;
-                           return !material.unlit && std::max({e.r, e.g, e.b}) > most;
-                       });
+    return std::ranges::any_of(scene.instances, [&](const Instance& instance) {
+        const Material& material = scene.materials[instance.material];
+        const glm::vec3& e = material.emission;
+        return !material.unlit && std::max({e.r, e.g, e.b}) > most;
+    });
 }
 
 bool hasSomethingToDraw(const Scene& scene)
 {
     return !scene.instances.empty() || !scene.analyticObjects.empty() ||
-           std::any_of(scene.lights.begin(), scene.lights.end(),
-                       [](const CndLight& light) { return !cndIsPunctual(light.type); });
+           std::ranges::any_of(scene.lights,
+                               [](const CndLight& light) { return !cndIsPunctual(light.type); });
 }
 
 // Lights a scene without light by a studio.

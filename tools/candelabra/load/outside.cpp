@@ -81,9 +81,9 @@ public:
     OutsideView seen() const
     {
         const double all = double(faces_.size());
-        return {double(std::count(drawn_.begin(), drawn_.end(), true)) / all,
-                double(std::count(faces_.begin(), faces_.end(), Front)) / all,
-                double(std::count(faces_.begin(), faces_.end(), Back)) / all};
+        return {double(std::ranges::count(drawn_, true)) / all,
+                double(std::ranges::count(faces_, Front)) / all,
+                double(std::ranges::count(faces_, Back)) / all};
     }
 
 private:
@@ -124,8 +124,8 @@ std::vector<std::optional<Mesh>> boxesInPlaceOfMeshes(const Scene& scene, uint64
         triangles[instance.mesh] += scene.meshes[instance.mesh].indices.size() / 3;
     std::vector<size_t> order(scene.meshes.size());
     std::iota(order.begin(), order.end(), size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](size_t a, size_t b) { return triangles[a] < triangles[b]; });
+    std::ranges::stable_sort(order,
+                             [&](size_t a, size_t b) { return triangles[a] < triangles[b]; });
     std::vector<std::optional<Mesh>> out(scene.meshes.size());
     uint64_t sum = 0;
     for (const size_t mesh : order) {

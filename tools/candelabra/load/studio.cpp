@@ -141,10 +141,9 @@ double Glow::of(const Material& material)
 bool isLit(const Scene& scene)
 {
     const auto emits = [](const CndLight& light) {
-        return std::any_of(std::begin(light.emission), std::end(light.emission),
-                           [](float e) { return e > 0; });
+        return std::ranges::any_of(light.emission, [](float e) { return e > 0; });
     };
-    return scene.environment || std::any_of(scene.lights.begin(), scene.lights.end(), emits);
+    return scene.environment || std::ranges::any_of(scene.lights, emits);
 }
 
 float studioWhite(const Scene& scene)
@@ -152,8 +151,8 @@ float studioWhite(const Scene& scene)
     const auto materialOf = [&](const Instance& instance) -> const Material& {
         return scene.materials[instance.material];
     };
-    if (std::none_of(scene.instances.begin(), scene.instances.end(),
-                     [&](const Instance& instance) { return materialOf(instance).unlit; }))
+    if (std::ranges::none_of(scene.instances,
+                             [&](const Instance& instance) { return materialOf(instance).unlit; }))
         return 1;
     Areas areas(scene);
     Glow glow(scene);

@@ -73,9 +73,7 @@ public:
             return;
         }
         ++measured_[lights];
-        const auto at =
-            std::lower_bound(tried_.begin(), tried_.end(), lights,
-                             [](const LightTime& t, uint32_t n) { return t.lights < n; });
+        const auto at = std::ranges::lower_bound(tried_, lights, {}, &LightTime::lights);
         if (at != tried_.end() && at->lights == lights) {
             at->ms = std::min(at->ms, *ms);
         } else {
@@ -104,9 +102,8 @@ private:
     // Returns `lights` unless it was tried.
     std::optional<uint32_t> other(uint64_t lights) const
     {
-        const bool known = lights <= impossible_ ||
-                           std::any_of(tried_.begin(), tried_.end(),
-                                       [&](const LightTime& t) { return t.lights == lights; });
+        const bool known =
+            lights <= impossible_ || std::ranges::count(tried_, lights, &LightTime::lights);
         return known ? std::nullopt : std::optional(uint32_t(lights));
     }
     // A round number between two others, if they are not nearly the same.

@@ -228,9 +228,8 @@ std::string checkTable(const std::vector<StressPoint>& points)
         table.add({grouped(p.lights), threeDigits(p.times.total().medianMs),
                    p.check.allPixels ? threeDigits(p.check.bruteMs) : "-", pixelsText(p.check),
                    checkText(p.check), identityText(p.identical)});
-    const bool all = std::all_of(points.begin(), points.end(), [](const StressPoint& p) {
-        return p.check.allPixels || !p.check.pixels;
-    });
+    const bool all = std::ranges::all_of(
+        points, [](const StressPoint& p) { return p.check.allPixels || !p.check.pixels; });
     return table.text() + (all ? "" : "Tiles are a sample: --check full compares every pixel.\n");
 }
 
@@ -243,12 +242,11 @@ constexpr double visibleShare = 0.02;
 std::optional<PlotSeries> frameLine(const StressSettings& settings, const PlotSeries& total)
 {
     const auto [least, most] =
-        std::minmax_element(total.points.begin(), total.points.end(),
-                            [](const auto& a, const auto& b) { return a.second < b.second; });
+        std::ranges::minmax_element(total.points, {}, &std::pair<double, double>::second);
     const double ms = settings.frameMs.value_or(1000.0 / 60);
     if (!settings.frameMs && (ms < least->second || ms > most->second))
         return {};
-    const auto [fewest, greatest] = std::minmax_element(total.points.begin(), total.points.end());
+    const auto [fewest, greatest] = std::ranges::minmax_element(total.points);
     return PlotSeries{.name = fmt::format("{:g} frames/s", 1000 / ms),
                       .points = {{fewest->first, ms}, {greatest->first, ms}},
                       .marked = false};
@@ -285,8 +283,8 @@ std::vector<PlotSeries> plotSeries(const StressSettings& settings,
             continue;
         }
         for (const auto& [lights, ms] : byName[name].points) {
-            const auto at = std::find_if(others.points.begin(), others.points.end(),
-                                         [x = lights](const auto& q) { return q.first == x; });
+            const auto at = std::ranges::find_if(
+                others.points, [x = lights](const auto& q) { return q.first == x; });
             if (at == others.points.end())
                 others.points.emplace_back(lights, ms);
             else
@@ -359,10 +357,8 @@ Json stressJson(const StressSettings& settings, const std::vector<StressPoint>& 
 std::string stressPlot(const StressSettings& settings, const DeviceInfo& device,
                        const std::vector<StressPoint>& points)
 {
-    const auto [least, most] =
-        std::minmax_element(points.begin(), points.end(), [](const auto& a, const auto& b) {
-            return a.times.frames() < b.times.frames();
-        });
+    const auto [least, most] = std::ranges::minmax_element(
+        points, {}, [](const StressPoint& p) { return p.times.frames(); });
     const std::string frames = least->times.frames() == most->times.frames()
                                    ? counted(most->times.frames(), "frame")
                                    : fmt::format("{} to {}", least->times.frames(),

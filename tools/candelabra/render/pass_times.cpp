@@ -33,8 +33,7 @@ void PassTimes::add(std::span<const PassTime> frame)
     for (Pass& pass : passes_)
         pass.ms.push_back(0);
     for (const PassTime& time : frame) {
-        auto pass = std::find_if(passes_.begin(), passes_.end(),
-                                 [&](const Pass& p) { return p.name == time.name; });
+        auto pass = std::ranges::find(passes_, time.name, &Pass::name);
         if (pass == passes_.end()) {
             passes_.push_back({time.name, time.part, std::vector<double>(totals_.size() + 1)});
             pass = passes_.end() - 1;
@@ -63,7 +62,7 @@ double PassTimes::medianMs(FramePart part) const
     std::vector<double> sums(totals_.size());
     for (const Pass& pass : passes_)
         if (pass.part == part)
-            std::transform(sums.begin(), sums.end(), pass.ms.begin(), sums.begin(), std::plus<>());
+            std::ranges::transform(sums, pass.ms, sums.begin(), std::plus<>());
     return sums.empty() ? 0 : medianOf(std::move(sums));
 }
 

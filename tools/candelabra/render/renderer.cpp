@@ -789,9 +789,8 @@ FrameStats Renderer::stats(uint32_t slot) const
         const size_t first = out.passes.size();
         addModule(FramePart::Lighting, out.lighting.kernelTimes, out.lighting.kernelTimeCount);
         // Shading passes run once for every type of light in the scene.
-        const uint32_t types = uint32_t(std::count_if(std::begin(out.lighting.lightTypeCounts),
-                                                      std::end(out.lighting.lightTypeCounts),
-                                                      [](uint32_t n) { return n; }));
+        const uint32_t types = uint32_t(
+            std::ranges::count_if(out.lighting.lightTypeCounts, [](uint32_t n) { return n; }));
         for (PassTime& pass : std::span(out.passes).subspan(first))
             if (pass.name.starts_with("shade_") && types) {
                 pass.runs = types;

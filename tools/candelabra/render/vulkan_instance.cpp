@@ -53,7 +53,7 @@ bool hasLayer(const char* wanted)
     vkEnumerateInstanceLayerProperties(&count, nullptr);
     std::vector<VkLayerProperties> layers(count);
     vkEnumerateInstanceLayerProperties(&count, layers.data());
-    return std::any_of(layers.begin(), layers.end(), [&](const VkLayerProperties& layer) {
+    return std::ranges::any_of(layers, [&](const VkLayerProperties& layer) {
         return std::strcmp(layer.layerName, wanted) == 0;
     });
 }
@@ -64,7 +64,7 @@ bool hasExtension(const char* layer, const char* wanted)
     vkEnumerateInstanceExtensionProperties(layer, &count, nullptr);
     std::vector<VkExtensionProperties> extensions(count);
     vkEnumerateInstanceExtensionProperties(layer, &count, extensions.data());
-    return std::any_of(extensions.begin(), extensions.end(), [&](const VkExtensionProperties& e) {
+    return std::ranges::any_of(extensions, [&](const VkExtensionProperties& e) {
         return std::strcmp(e.extensionName, wanted) == 0;
     });
 }
@@ -81,8 +81,8 @@ void addSurfaceExtensions(std::vector<const char*>& extensions)
 
 std::string lower(std::string text)
 {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::ranges::transform(text, text.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return text;
 }
 
@@ -140,7 +140,7 @@ DeviceInfo deviceInfoOf(VkInstance instance, VkPhysicalDevice handle, uint32_t i
 bool isNumber(const std::string& text)
 {
     return !text.empty() && text.size() < 6 &&
-           std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); });
+           std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c); });
 }
 
 // Returns the device that `wanted` names. Throws UsageError if there is none.
@@ -154,7 +154,7 @@ DeviceInfo findDevice(const std::vector<DeviceInfo>& devices, const std::string&
                              counted(devices.size(), "device") + ", numbered from 0");
         return devices[index];
     }
-    const auto match = std::find_if(devices.begin(), devices.end(), [&](const DeviceInfo& d) {
+    const auto match = std::ranges::find_if(devices, [&](const DeviceInfo& d) {
         return lower(d.name).find(lower(wanted)) != std::string::npos;
     });
     if (match == devices.end())

@@ -104,7 +104,7 @@ std::string folderText(const std::string& path)
          at.increment(unreadable))
         if (mayBeScene(at->path()))
             scenes.push_back(at->path().filename().string());
-    std::sort(scenes.begin(), scenes.end());
+    std::ranges::sort(scenes);
     std::string names;
     for (size_t i = 0; i < std::min(scenes.size(), shown); ++i)
         names += (i ? ", " : "") + printable(scenes[i]);

@@ -98,7 +98,7 @@ void JsonValue::refuseOtherKeys(const std::vector<std::string>& known) const
 {
     requireObject();
     for (const auto& [key, value] : value_->items())
-        if (std::find(known.begin(), known.end(), key) == known.end())
+        if (std::ranges::find(known, key) == known.end())
             fail(fmt::format("unknown key \"{}\"; the known ones are {}", printable(key, 60),
                              fmt::join(known, ", ")));
 }

@@ -15,8 +15,8 @@ bool isShown(const CndLight& light, const Camera& camera)
 std::vector<CndLight> lightsShown(const std::vector<CndLight>& lights, const Camera& camera)
 {
     std::vector<CndLight> shown;
-    std::copy_if(lights.begin(), lights.end(), std::back_inserter(shown),
-                 [&](const CndLight& light) { return isShown(light, camera); });
+    std::ranges::copy_if(lights, std::back_inserter(shown),
+                         [&](const CndLight& light) { return isShown(light, camera); });
     return shown;
 }
 

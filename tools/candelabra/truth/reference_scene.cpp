@@ -145,10 +145,10 @@ std::vector<std::string> leftOutByReference(const Scene& scene)
     for (const Instance& instance : scene.instances) {
         const Material& m = scene.materials[instance.material];
         const auto& colours = scene.meshes[instance.mesh].vertices;
-        textured += std::any_of(colours.begin(), colours.end(),
-                                [](const Vertex& v) { return v.color != glm::vec4(1); }) ||
-                    std::max({m.baseColorTexture.texture, m.metallicRoughnessTexture.texture,
-                              m.normalTexture.texture, m.emissiveTexture.texture}) >= 0;
+        textured +=
+            std::ranges::any_of(colours, [](const Vertex& v) { return v.color != glm::vec4(1); }) ||
+            std::max({m.baseColorTexture.texture, m.metallicRoughnessTexture.texture,
+                      m.normalTexture.texture, m.emissiveTexture.texture}) >= 0;
     }
     std::vector<std::string> out;
     if (textured)

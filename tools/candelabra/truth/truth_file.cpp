@@ -143,7 +143,7 @@ Image mergeTruthShards(std::span<const std::string> paths, std::span<const Truth
             source += 3 * shard.width;
         }
     }
-    const auto missing = std::find(owner.begin(), owner.end(), nullptr);
+    const auto missing = std::ranges::find(owner, nullptr);
     if (missing != owner.end())
         throw ImageError(fmt::format("{}: cannot be merged: shard {} of {} is missing", paths[0],
                                      missing - owner.begin() + 1, first.count));

@@ -104,7 +104,7 @@ ImageDifference imageDifference(const Image& image, const Image& truth)
     out.relL1 /= sum;
     out.maxOverPeak /= peak;
     out.energy = valueSum / sum - 1;
-    std::sort(lit.begin(), lit.end());
+    std::ranges::sort(lit);
     out.litRelMse = litSquares / double(lit.size());
     out.litMeanRel = std::accumulate(lit.begin(), lit.end(), 0.0) / double(lit.size());
     out.litP99Rel = lit[size_t(std::ceil(0.99 * double(lit.size()))) - 1];

@@ -151,10 +151,9 @@ namespace
 std::vector<MeasuredMethod> methodsFor(const Scene& scene,
                                        const std::vector<MeasuredMethod>& methods)
 {
-    const bool rival =
-        std::all_of(scene.lights.begin(), scene.lights.end(), [](const CndLight& light) {
-            return cndIsPunctual(light.type) || rivalKnows(light.type);
-        });
+    const bool rival = std::ranges::all_of(scene.lights, [](const CndLight& light) {
+        return cndIsPunctual(light.type) || rivalKnows(light.type);
+    });
     std::vector<MeasuredMethod> out;
     for (const MeasuredMethod& method : methods)
         if (rival || method.rival == Rival::None)
@@ -167,7 +166,7 @@ std::vector<Scene> scenesOf(const ImageLevelSettings& s)
     std::vector<Scene> out = benchScenes();
     if (!s.scenes.empty())
         std::erase_if(out, [&](const Scene& scene) {
-            return std::find(s.scenes.begin(), s.scenes.end(), scene.name) == s.scenes.end();
+            return std::ranges::find(s.scenes, scene.name) == s.scenes.end();
         });
     return out;
 }

@@ -26,8 +26,7 @@ ErrorStatistics statistics(std::vector<Error> errors)
     ErrorStatistics out{.count = errors.size()};
     if (errors.empty())
         return out;
-    std::sort(errors.begin(), errors.end(),
-              [](const Error& a, const Error& b) { return a.value < b.value; });
+    std::ranges::sort(errors, {}, &Error::value);
     for (const Error& e : errors)
         out.mean += e.value / double(errors.size());
     const auto rank = [&](double share) { // the nearest rank

@@ -41,9 +41,8 @@ void addErrors(const VulkanContext& context, const KernelLevelSettings& s, uint3
     progress.doing(std::string("truth: ") + lightTypeName(lightType));
     integrateTruth(set, s.truthTolerance, [&](size_t n) { progress.advance(double(n)); });
     out.samples += set.samples.size();
-    out.unconvergedTruths +=
-        size_t(std::count_if(set.samples.begin(), set.samples.end(),
-                             [](const LightSample& sample) { return !sample.truth.converged; }));
+    out.unconvergedTruths += size_t(std::ranges::count_if(
+        set.samples, [](const LightSample& sample) { return !sample.truth.converged; }));
     for (const MeasuredMethod& method : comparedMethods(lightType)) {
         const Evaluation evaluation{
             .lightType = lightType, .method = method, .sampleCount = s.sampleCount};

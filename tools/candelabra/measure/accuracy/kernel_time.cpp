@@ -176,7 +176,7 @@ std::vector<VariantTime> timeVariants(const VulkanContext& context,
     std::vector<VariantTime> out;
     for (size_t i = 0; i < variants.size(); ++i) {
         VariantTime t{.medianNs = medianOf(ns[i]),
-                      .minNs = *std::min_element(ns[i].begin(), ns[i].end()),
+                      .minNs = *std::ranges::min_element(ns[i]),
                       .roundsNs = ns[i],
                       .noisy = isNoisy(ns[i])};
         if (baseline[i] >= 0 && medianAboveNoise(ns[i]) &&

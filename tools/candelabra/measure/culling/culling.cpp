@@ -266,8 +266,7 @@ bool Contender::hasRightImage() const
 
 const Contender& CullingPoint::of(const std::string& name) const
 {
-    return *std::find_if(contenders.begin(), contenders.end(),
-                         [&](const Contender& c) { return c.name == name; });
+    return *std::ranges::find(contenders, name, &Contender::name);
 }
 
 const Contender& CullingPoint::bestBaseline() const
@@ -354,8 +353,8 @@ std::vector<std::vector<CullingPoint>> sweepsOf(const std::vector<CullingPoint>&
 {
     std::vector<std::vector<CullingPoint>> out;
     for (const CullingPoint& p : points) {
-        const auto at = std::find_if(
-            out.begin(), out.end(), [&](const auto& sweep) { return sameSweep(sweep.front(), p); });
+        const auto at = std::ranges::find_if(
+            out, [&](const auto& sweep) { return sameSweep(sweep.front(), p); });
         if (at == out.end())
             out.push_back({p});
         else

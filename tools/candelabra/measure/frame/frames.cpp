@@ -171,8 +171,8 @@ std::string planText(const FrameStats& frame)
             fmt::format("lights: {}; other types have no passes\n", types.empty() ? "none" : types);
     for (const CndPassPlan& pass : frame.plan) {
         // A pass that has a time although it did nothing was recorded (CndPassPlan).
-        const bool recorded = std::any_of(frame.passes.begin(), frame.passes.end(),
-                                          [&](const PassTime& p) { return p.name == pass.name; });
+        const bool recorded = std::ranges::any_of(
+            frame.passes, [&](const PassTime& p) { return p.name == pass.name; });
         const char* what = recorded ? "recorded, found nothing to do" : "skipped";
         out += fmt::format("{:<20} {}\n", pass.name,
                            pass.skipped ? fmt::format("{}: {}", what, pass.skipped) : "runs");

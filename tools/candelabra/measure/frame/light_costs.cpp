@@ -174,8 +174,7 @@ LightCosts shareOut(const PairImage& image, const std::vector<CndLight>& lights,
     for (uint32_t i = 0; i < all.size(); ++i)
         if (all[i].pixels)
             out.lights.push_back({i, all[i].pixels, all[i].pairs});
-    std::stable_sort(out.lights.begin(), out.lights.end(),
-                     [](const LightCost& a, const LightCost& b) { return a.pairs > b.pairs; });
+    std::ranges::stable_sort(out.lights, std::ranges::greater(), &LightCost::pairs);
     return out;
 }
 

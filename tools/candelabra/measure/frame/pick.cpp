@@ -145,9 +145,7 @@ private:
         std::vector<PickedOccluder> out;
         for (const auto& [name, points] : hidden)
             out.push_back({name, double(points.count()) / double(count)});
-        std::stable_sort(
-            out.begin(), out.end(),
-            [](const PickedOccluder& a, const PickedOccluder& b) { return a.share > b.share; });
+        std::ranges::stable_sort(out, std::ranges::greater(), &PickedOccluder::share);
         return out;
     }
 
@@ -269,11 +267,10 @@ Pick pickPixel(const VulkanContext& context, Renderer& renderer, const Scene& sc
         out.lights.push_back(picked);
     }
     renderer.setLights(lights);
-    std::stable_sort(
-        out.lights.begin(), out.lights.end(), [](const PickedLight& a, const PickedLight& b) {
-            const double la = luminanceOf(a.radiance), lb = luminanceOf(b.radiance);
-            return la != lb ? la > lb : luminanceOf(a.unshadowed) > luminanceOf(b.unshadowed);
-        });
+    std::ranges::stable_sort(out.lights, [](const PickedLight& a, const PickedLight& b) {
+        const double la = luminanceOf(a.radiance), lb = luminanceOf(b.radiance);
+        return la != lb ? la > lb : luminanceOf(a.unshadowed) > luminanceOf(b.unshadowed);
+    });
     return out;
 }
 

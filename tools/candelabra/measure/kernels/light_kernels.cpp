@@ -152,7 +152,7 @@ LightEvaluator::evaluateBatch(std::span<const gpu::BenchReceiver> receivers,
 {
     for (CndLight& light : lights) {
         light.influenceRadius = std::numeric_limits<float>::infinity();
-        std::fill(std::begin(light.emission), std::end(light.emission), 1.0f);
+        std::ranges::fill(light.emission, 1.0f);
     }
     const gpu::Device& device = context_.device();
     const DeviceLights onDevice = uploadLights(device, lights);

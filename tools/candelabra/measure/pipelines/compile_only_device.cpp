@@ -21,7 +21,7 @@ bool hasNeeded(VkPhysicalDevice device)
     vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
     std::vector<VkExtensionProperties> extensions(count);
     vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
-    return std::any_of(extensions.begin(), extensions.end(), [](const VkExtensionProperties& e) {
+    return std::ranges::any_of(extensions, [](const VkExtensionProperties& e) {
         return std::strcmp(e.extensionName, needed) == 0;
     });
 }

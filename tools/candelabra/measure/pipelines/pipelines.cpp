@@ -103,7 +103,7 @@ bool isWanted(const PipelineSettings& settings, const PipelineRequest& request)
         return found == constants.end() || (mask >> found->second & 1);
     };
     const auto& kernels = settings.kernels;
-    return (kernels.empty() || std::count(kernels.begin(), kernels.end(), request.kernel)) &&
+    return (kernels.empty() || std::ranges::count(kernels, request.kernel)) &&
            allowed("lightType", settings.lightTypes) &&
            (settings.diffuseOnlyTiles || allowed("tileClass", 1u << gpu::CLASS_ANY));
 }

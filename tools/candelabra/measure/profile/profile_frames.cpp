@@ -67,8 +67,7 @@ void FrameSeries::add(const FrameStats& frame, const CpuSpans& cpu,
         pass.ms.push_back(0);
     double sum = 0;
     for (const PassTime& time : frame.passes) {
-        auto pass = std::find_if(passes.begin(), passes.end(),
-                                 [&](const Pass& p) { return p.name == time.name; });
+        auto pass = std::ranges::find(passes, time.name, &Pass::name);
         if (pass == passes.end())
             pass = passes.insert(pass, {time.name, std::vector<double>(gpuMs.size() + 1)});
         const double ms = std::max(0.0, time.ms - time.runs * stampMs);
@@ -88,7 +87,7 @@ std::vector<double> FrameSeries::shadingMs() const
     std::vector<double> ms(gpuMs.size());
     for (const Pass& pass : passes)
         if (pass.name == "shade_tiles" || pass.name == "shade_unlisted")
-            std::transform(ms.begin(), ms.end(), pass.ms.begin(), ms.begin(), std::plus<>());
+            std::ranges::transform(ms, pass.ms, ms.begin(), std::plus<>());
     return ms;
 }
 
@@ -211,8 +210,8 @@ Profile profileFrames(const VulkanContext& context, Renderer& renderer,
         round(out.warmUpRounds++, warmUp);
         if (out.warmUpRounds <= maxWarmUp)
             onRound();
-        out.settled = std::all_of(warmUp.begin(), warmUp.end(),
-                                  [](const FrameSeries& s) { return isStable(s.frameMs); });
+        out.settled =
+            std::ranges::all_of(warmUp, [](const FrameSeries& s) { return isStable(s.frameMs); });
     }
     frames.finishAll();
     time = settings.variants[0].time;
@@ -235,7 +234,7 @@ namespace
 
 bool hasTime(const std::vector<double>& ms)
 {
-    return std::any_of(ms.begin(), ms.end(), [](double t) { return t > 0; });
+    return std::ranges::any_of(ms, [](double t) { return t > 0; });
 }
 
 std::string percent(double share)
@@ -386,7 +385,7 @@ std::string toCsv(const std::vector<std::string>& names, const std::vector<Frame
     std::vector<std::string> passes;
     for (const FrameSeries& s : series)
         for (const FrameSeries::Pass& pass : s.passes)
-            if (std::find(passes.begin(), passes.end(), pass.name) == passes.end())
+            if (std::ranges::find(passes, pass.name) == passes.end())
                 passes.push_back(pass.name);
     std::string out = "variant,frame";
     for (const std::string& pass : passes)

@@ -130,7 +130,7 @@ std::vector<RunRatio> compareRuns(std::span<const RunQuantity> quantities, bool 
                 most = std::max(most, effectOf(v, deal, paired).t());
             largest.push_back(most);
         });
-    std::sort(largest.begin(), largest.end(), std::greater<>());
+    std::ranges::sort(largest, std::greater<>());
     // At most one deal of twenty exceeds this t statistic.
     const double limit = enough ? largest[largest.size() / 20] : infinity;
 
@@ -140,8 +140,7 @@ std::vector<RunRatio> compareRuns(std::span<const RunQuantity> quantities, bool 
         // A deal with the same sums, but added in another order, must not count as less different.
         constexpr double rounding = 1e-9;
         const double t = effect.t() * (1 - rounding);
-        const auto asLarge =
-            std::find_if(largest.begin(), largest.end(), [&](double other) { return other < t; });
+        const auto asLarge = std::ranges::find_if(largest, [&](double other) { return other < t; });
         const double half = !enough            ? infinity
                             : effect.error > 0 ? limit * effect.error * (1 + rounding)
                                                : 0;

@@ -39,8 +39,8 @@ bool change(CndLight& light, const WhatIf& whatIf)
         if (cndIsPunctual(light.type))
             return false;
         scale(light.radius);
-        std::for_each(std::begin(light.axisU), std::end(light.axisU), scale);
-        std::for_each(std::begin(light.axisV), std::end(light.axisV), scale);
+        std::ranges::for_each(light.axisU, scale);
+        std::ranges::for_each(light.axisV, scale);
     }
     return true;
 }
@@ -54,8 +54,8 @@ void requireValid(const std::vector<CndLight>& lights, std::span<const uint32_t>
         const double limit = cndIsDistant(lights[i].type) ? 1 : double(lights[i].influenceRadius);
         return double(cndEmitterBoundingRadius(&lights[i])) / limit;
     };
-    const uint32_t worst = *std::max_element(
-        changed.begin(), changed.end(), [&](uint32_t x, uint32_t y) { return use(x) < use(y); });
+    const uint32_t worst =
+        *std::ranges::max_element(changed, [&](uint32_t x, uint32_t y) { return use(x) < use(y); });
     if (use(worst) < 1)
         return;
     const CndLight& light = lights[worst];

@@ -26,7 +26,7 @@ std::vector<Evaluation> evaluations(const StabilitySettings& s)
         for (const CndSpecularMethod method : methodsOf(type))
             out.push_back({.lightType = type, .method = method, .sampleCount = s.sampleCount});
     const auto unwanted = [](const auto& wanted, auto value) {
-        return !wanted.empty() && std::find(wanted.begin(), wanted.end(), value) == wanted.end();
+        return !wanted.empty() && std::ranges::find(wanted, value) == wanted.end();
     };
     std::erase_if(out, [&](const Evaluation& e) {
         return unwanted(s.lightTypes, e.lightType) || unwanted(s.methods, e.method.specular);
@@ -134,7 +134,7 @@ QuadratureCheck checkQuadrature(Sweep& sweep, const Evaluation& evaluation, uint
     out.samples = errors.size();
     if (errors.empty())
         return out;
-    std::sort(errors.begin(), errors.end());
+    std::ranges::sort(errors);
     for (const double e : errors)
         out.mean += e / double(errors.size());
     out.p99 = errors[size_t(std::ceil(0.99 * double(errors.size()))) - 1];
@@ -170,8 +170,7 @@ uint64_t Stability::invalid() const
 
 bool Stability::overBar() const
 {
-    return std::any_of(quadrature.begin(), quadrature.end(),
-                       [](const QuadratureCheck& q) { return q.overBar(); });
+    return std::ranges::any_of(quadrature, &QuadratureCheck::overBar);
 }
 
 double stabilitySteps(const StabilitySettings& s)
@@ -184,7 +183,7 @@ Stability measureStability(const VulkanContext& context, const StabilitySettings
 {
     Stability out;
     const std::vector<Evaluation> all = evaluations(settings);
-    const auto measurable = size_t(std::count_if(all.begin(), all.end(), hasQuadrature));
+    const auto measurable = size_t(std::ranges::count_if(all, hasQuadrature));
     const uint64_t each =
         std::max<uint64_t>((settings.configurations + all.size() * sweepSliceCount - 1) /
                                (all.size() * sweepSliceCount),
