@@ -103,7 +103,7 @@ void compute(const ProgramContext& program, const reference::Scene& scene,
     shard.pixels.reserve(3 * truth.pixels.size());
     for (const glm::dvec3& pixel : truth.pixels)
         for (int i = 0; i < 3; ++i)
-            shard.pixels.push_back(static_cast<float>(pixel[i]));
+            shard.pixels.push_back(float(pixel[i]));
 }
 
 // Chooses `count` pixels at random, or all of them. The choice depends on nothing but the size and

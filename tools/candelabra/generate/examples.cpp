@@ -31,7 +31,7 @@ void append(std::vector<uint8_t>& bytes, const void* data, size_t size)
 void append32(std::vector<uint8_t>& bytes, uint32_t value)
 {
     for (int shift = 0; shift < 32; shift += 8)
-        bytes.push_back(static_cast<uint8_t>(value >> shift));
+        bytes.push_back(uint8_t(value >> shift));
 }
 
 json vectorJson(const glm::vec3& v)

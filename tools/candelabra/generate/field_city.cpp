@@ -46,8 +46,7 @@ uint32_t facade(const Kit& kit, Random& random, double height)
             nearest = i;
         }
     }
-    const uint32_t styles =
-        static_cast<uint32_t>(kit.material.facades.size() / facadeStoreys.size());
+    const uint32_t styles = uint32_t(kit.material.facades.size() / facadeStoreys.size());
     return kit.material.facades[random.below(styles) * facadeStoreys.size() + nearest];
 }
 
@@ -131,7 +130,7 @@ void addPark(Kit& kit, Random& random, double x, double z)
 void addKerbside(Kit& kit, Random& random, double x, double z)
 {
     const double edge = 0.5 * blockSize - lampOffset;
-    const int perSide = static_cast<int>(blockSize / lampSpacing);
+    const int perSide = int(blockSize / lampSpacing);
     for (int side = 0; side < 4; ++side) {
         // The lamp's arm, which points to +z in the mesh, points away from the block.
         const double yaw = 0.5 * pi * side;
@@ -160,14 +159,14 @@ void addBlock(Kit& kit, Random& random, int blockX, int blockZ)
 {
     SceneBuilder& b = kit.builder;
     const Materials& m = kit.material;
-    std::vector<Building>& block = kit.buildings[static_cast<size_t>(blockCount) * blockZ + blockX];
+    std::vector<Building>& block = kit.buildings[size_t(blockCount) * blockZ + blockX];
     const double x = blockCentre(blockX), z = blockCentre(blockZ);
     if (isRiver(z)) {
         b.place(kit.mesh.street, m.water, {x, waterLevel, z}, {blockSize, 1, blockSize});
         return;
     }
-    b.place(kit.mesh.street, m.asphalt[random.below(static_cast<uint32_t>(m.asphalt.size()))],
-            {x, 0, z}, {blockSize, 1, blockSize});
+    b.place(kit.mesh.street, m.asphalt[random.below(uint32_t(m.asphalt.size()))], {x, 0, z},
+            {blockSize, 1, blockSize});
     const bool besideWheel = glm::length(glm::dvec2(x - wheelHub.x, z - wheelHub.z)) < 75;
     const bool park = random.chance(0.07f) || besideWheel;
     // The rim of the slab is 0.012 high in the mesh.
@@ -189,7 +188,7 @@ void addBlock(Kit& kit, Random& random, int blockX, int blockZ)
 
 void addCity(Kit& kit, Random& random)
 {
-    kit.buildings.resize(static_cast<size_t>(blockCount) * blockCount);
+    kit.buildings.resize(size_t(blockCount) * blockCount);
     for (int z = 0; z < blockCount; ++z) {
         for (int x = 0; x < blockCount; ++x)
             addBlock(kit, random, x, z);

@@ -116,8 +116,8 @@ void appendBar(Mesh& mesh, const glm::vec3& from, const glm::vec3& to, float rad
 Mesh makeLamp()
 {
     Mesh mesh;
-    const float height = static_cast<float>(lampHeight) + 0.3f;
-    const float reach = static_cast<float>(lampReach);
+    const float height = float(lampHeight) + 0.3f;
+    const float reach = float(lampReach);
     appendBar(mesh, {0, 0, 0}, {0, height, 0}, 0.09f);
     appendBar(mesh, {0, height, 0}, {0, height + 0.25f, reach}, 0.05f);
     appendMesh(
@@ -144,7 +144,7 @@ Mesh makeMast()
     Mesh mesh;
     constexpr int levels = 9;
     const auto corner = [](int level, int which) {
-        const float y = static_cast<float>(level) / levels;
+        const float y = float(level) / levels;
         const float half = 0.08f * (1 - 0.9f * y);
         const float x = which == 0 || which == 3 ? -half : half;
         return glm::vec3(x, y, which < 2 ? -half : half);
@@ -191,10 +191,10 @@ WindowTextures addWindowTextures(Scene& scene, Random& random)
                 const uint32_t x = i % cellTexels, y = i / cellTexels;
                 const bool pane = x >= frameTexels && x < cellTexels - frameTexels &&
                                   y >= frameTexels && y < cellTexels - frameTexels;
-                const size_t at = 4 * ((cellY * cellTexels + y) * static_cast<size_t>(size) +
-                                       cellX * cellTexels + x);
+                const size_t at =
+                    4 * ((cellY * cellTexels + y) * size_t(size) + cellX * cellTexels + x);
                 for (size_t channel = 0; channel < 3; ++channel) {
-                    const int c = static_cast<int>(channel);
+                    const int c = int(channel);
                     base.rgba[at + channel] = pane ? colour[c] : uint8_t{255};
                 }
                 roughness.rgba[at + 1] = pane ? 25 : 200; // 0.1 and 0.78
@@ -202,7 +202,7 @@ WindowTextures addWindowTextures(Scene& scene, Random& random)
             }
         }
     }
-    const int32_t first = static_cast<int32_t>(scene.textures.size());
+    const int32_t first = int32_t(scene.textures.size());
     scene.textures.push_back(std::move(base));
     scene.textures.push_back(std::move(roughness));
     return {first, first + 1};
@@ -221,12 +221,11 @@ void addFacades(Kit& kit, Random& random)
             facade.baseColor = walls[style];
             // The offset is a whole number of cells, so that uv 0 stays in the corner of a cell,
             // which is wall.
-            const glm::vec2 offset =
-                glm::floor(random.uniform2() * static_cast<float>(textureCells));
-            const float cells = static_cast<float>(textureCells);
+            const glm::vec2 offset = glm::floor(random.uniform2() * float(textureCells));
+            const float cells = float(textureCells);
             TextureRef ref;
-            ref.uRow = {static_cast<float>(windowColumns) / cells, 0, offset.x / cells};
-            ref.vRow = {0, static_cast<float>(storeys) / cells, offset.y / cells};
+            ref.uRow = {float(windowColumns) / cells, 0, offset.x / cells};
+            ref.vRow = {0, float(storeys) / cells, offset.y / cells};
             ref.texture = textures.baseColor;
             facade.baseColorTexture = ref;
             ref.texture = textures.metallicRoughness;

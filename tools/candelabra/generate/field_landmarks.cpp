@@ -55,7 +55,7 @@ void addSuspension(Kit& kit)
         }
         constexpr int pieces = 32;
         const auto onCable = [&](int i) {
-            const double t = static_cast<double>(i) / pieces;
+            const double t = double(i) / pieces;
             return glm::dvec3(x, cableHeight(t), riverNorth + riverWidth * t);
         };
         for (int i = 0; i < pieces; ++i) {
@@ -112,7 +112,7 @@ void addSurroundings(Kit& kit, Random& random)
     SceneBuilder& b = kit.builder;
     constexpr double tile = 500;
     constexpr int half = 11; // tiles to each side, which are 5.5 km
-    constexpr int city = static_cast<int>(cityHalf / tile);
+    constexpr int city = int(cityHalf / tile);
     for (int x = -half; x < half; ++x) {
         for (int z = -half; z < half; ++z) {
             const bool inside = x >= -city && x < city && z >= -city && z < city;

@@ -82,7 +82,7 @@ StreetPlace nearestStreet(Random& random, const glm::dvec2& p)
     const double across = place.runsAlongZ ? p.x : p.y;
     place.along = place.runsAlongZ ? p.y : p.x;
     const double street = std::round((across + cityHalf) / blockSize);
-    place.street = streetAt(static_cast<int>(std::clamp(street, 0.0, 1.0 * blockCount)));
+    place.street = streetAt(int(std::clamp(street, 0.0, 1.0 * blockCount)));
     return place;
 }
 
@@ -138,15 +138,13 @@ LightSite onRoof(Random& random, const glm::dvec2& p, const Buildings& buildings
 {
     LightSite site = onLamp(random, p, buildings);
     const auto block = [](double at) {
-        return std::clamp(static_cast<int>(std::floor((at + cityHalf) / blockSize)), 0,
-                          blockCount - 1);
+        return std::clamp(int(std::floor((at + cityHalf) / blockSize)), 0, blockCount - 1);
     };
-    const std::vector<Building>& choice =
-        buildings[static_cast<size_t>(blockCount) * block(p.y) + block(p.x)];
+    const std::vector<Building>& choice = buildings[size_t(blockCount) * block(p.y) + block(p.x)];
     if (choice.empty()) {
         return site; // in parks and at the river it stays a street lamp
     }
-    const Building& building = choice[random.below(static_cast<uint32_t>(choice.size()))];
+    const Building& building = choice[random.below(uint32_t(choice.size()))];
     const glm::dvec2 offset = 0.8 * (2.0 * glm::dvec2(random.uniform2()) - 1.0);
     site.radius = random.skewed(0.3f, building.height > 60 ? 3.0f : 1.2f);
     site.position =
@@ -215,8 +213,7 @@ std::vector<LightSite> lightSites(const Kit& kit, uint32_t count, const SceneOpt
         if (overWater)
             site = lantern(random, place, kit.buildings);
         // The influence radius is proportional to the mean distance of neighbours.
-        site.reach *=
-            static_cast<float>(std::sqrt(farDensity / density({site.position.x, site.position.z})));
+        site.reach *= float(std::sqrt(farDensity / density({site.position.x, site.position.z})));
         site.reach *= random.uniform(0.7f, 1.45f);
         if (options.moving) {
             const float radius = motionRandom.skewed(0.5f, 8);

@@ -138,9 +138,9 @@ void addMeshes(Kit& kit)
     kit.mesh.shaft = b.addMesh(makeShaft());
     kit.mesh.columnBase = b.addMesh(makeColumnBase());
     kit.mesh.capital = b.addMesh(makeCapital());
-    kit.mesh.archedWall = b.addMesh(makeArchedWall(
-        static_cast<float>(bayWidth), static_cast<float>(arcadeTop - springingHeight),
-        static_cast<float>(arcadeDepth), static_cast<float>(archRadius), 24));
+    kit.mesh.archedWall =
+        b.addMesh(makeArchedWall(float(bayWidth), float(arcadeTop - springingHeight),
+                                 float(arcadeDepth), float(archRadius), 24));
     kit.mesh.archRing = b.addMesh(makeArchRing(1, 1.07f, 1, pi_v<float>, 28));
     kit.mesh.vault = b.addMesh(makeVault(32));
     kit.mesh.ball = b.addMesh(makeSphere(14, 9));

@@ -85,7 +85,7 @@ struct Kit {
 
     uint32_t anyOf(Random& random, const std::vector<uint32_t>& materials) const
     {
-        return materials[random.below(static_cast<uint32_t>(materials.size()))];
+        return materials[random.below(uint32_t(materials.size()))];
     }
 };
 

@@ -18,7 +18,7 @@ constexpr double archivolt = 0.985;
 void addFloor(Kit& kit, Random& random)
 {
     const Materials& m = kit.material;
-    constexpr int halfX = static_cast<int>(halfLength), halfZ = static_cast<int>(halfWidth);
+    constexpr int halfX = int(halfLength), halfZ = int(halfWidth);
     // Materials of the patterns, as indices into Materials::floor.
     constexpr uint32_t black = 0, white = 1, green = 2, red = 3, cream = 4, wornBlack = 5, grey = 6,
                        terracotta = 7;
@@ -36,7 +36,7 @@ void addFloor(Kit& kit, Random& random)
             }
             // A few tiles were replaced.
             if (random.chance(0.04f))
-                kind = random.below(static_cast<uint32_t>(m.floor.size()));
+                kind = random.below(uint32_t(m.floor.size()));
             kit.builder.place(kit.mesh.tile, m.floor[kind], {x + 0.5, 0, z + 0.5});
         }
     }

@@ -18,7 +18,7 @@ constexpr double fineUntilX = -22;
 void addChain(Kit& kit, const glm::dvec3& from, double toY)
 {
     constexpr double pitch = 0.22, size = 0.09;
-    const int links = static_cast<int>((toY - from.y) / pitch);
+    const int links = int((toY - from.y) / pitch);
     for (int i = 0; i < links; ++i) {
         // Links stand upright, longer than wide, every other one turned by a quarter.
         const glm::dvec3 at = from + glm::dvec3(0, pitch * (i + 0.5), 0);
@@ -57,7 +57,7 @@ void addChandelier(Kit& kit, double x)
 void addCable(Kit& kit, const glm::dvec3& from, const glm::dvec3& to, double sag, int pieces)
 {
     for (int i = 0; i < pieces; ++i) {
-        const double t0 = static_cast<double>(i) / pieces, t1 = (i + 1.0) / pieces;
+        const double t0 = double(i) / pieces, t1 = (i + 1.0) / pieces;
         glm::dvec3 a = glm::mix(from, to, t0), b = glm::mix(from, to, t1);
         a.y = hanging(from.y, sag, t0);
         b.y = hanging(from.y, sag, t1);
@@ -84,7 +84,7 @@ void addGalleryRailings(Kit& kit)
 {
     SceneBuilder& b = kit.builder;
     constexpr double spacing = 0.3125; // 16 per bay
-    constexpr int perSide = static_cast<int>(2 * halfLength / spacing);
+    constexpr int perSide = int(2 * halfLength / spacing);
     for (const double side : {-1.0, 1.0}) {
         const double z = side * (naveHalf - 0.5);
         for (int i = 0; i < perSide; ++i) {
@@ -221,13 +221,11 @@ void addFurnishings(Kit& kit, Random& random)
     addGalleryRailings(kit);
     for (int bay = 0; bay < bays; ++bay) {
         for (const double side : {-1.0, 1.0}) {
-            addExhibit(kit, random, {bayCentre(bay), 0, side * 5.2},
-                       static_cast<int>(random.below(4)));
+            addExhibit(kit, random, {bayCentre(bay), 0, side * 5.2}, int(random.below(4)));
             if (bay % 2 == 1) {
                 addScreen(kit, columnX(bay), side);
             } else {
-                addExhibit(kit, random, {bayCentre(bay), 0, side * 10.2},
-                           static_cast<int>(random.below(4)));
+                addExhibit(kit, random, {bayCentre(bay), 0, side * 10.2}, int(random.below(4)));
             }
         }
     }

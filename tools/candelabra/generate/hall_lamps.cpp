@@ -103,7 +103,7 @@ struct KeyLight {
 // addSphereLights found; from 300 to 64,000 lights it is right within 15%.
 float usualInfluenceRadius(uint32_t lightCount)
 {
-    return 1.4f * std::pow(static_cast<float>(lightCount) / defaultLightCount, -0.43f);
+    return 1.4f * std::pow(float(lightCount) / defaultLightCount, -0.43f);
 }
 
 void placeCage(Kit& kit, const Lamp& lamp, uint32_t glass, uint32_t metal)
@@ -130,7 +130,7 @@ void addLampFixtures(Kit& kit)
     SceneBuilder& b = kit.builder;
     const Materials& m = kit.material;
     const auto lanternGlass = [&](const Lamp& lamp) {
-        return m.lantern[static_cast<size_t>(lamp.hue % lanternHueCount)];
+        return m.lantern[size_t(lamp.hue % lanternHueCount)];
     };
     for (const Lamp& lamp : chandelierLamps())
         placeCage(kit, lamp, m.marble, m.gold);
@@ -176,7 +176,7 @@ std::vector<LightSite> keyLights(uint32_t lightCount, bool moving, Random& rando
         for (const Lamp& lamp : lamps) {
             if (lamp.hue >= 0)
                 kind.colour = lanternColour(lamp.hue, 0);
-            add(kind, lamp.position, static_cast<float>(lamp.radius));
+            add(kind, lamp.position, float(lamp.radius));
         }
     };
     addAll({13, 1200, blackbodyColour(3800)}, chandelierLamps());

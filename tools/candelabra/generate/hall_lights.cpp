@@ -60,7 +60,7 @@ glm::vec3 glassColour(Random& random, int hue)
 LightSite onChandelier(Random& random)
 {
     LightSite site;
-    const int chandelier = static_cast<int>(random.below(chandeliers));
+    const int chandelier = int(random.below(chandeliers));
     const double angle = 2 * pi * random.below(chandelierCups) / chandelierCups;
     const glm::dvec3 jitter(random.uniform3() - 0.5f);
     site.position = glm::dvec3(chandelierX(chandelier), chandelierY + 0.25, 0) +
@@ -80,11 +80,11 @@ LightSite onCable(Random& random)
     const uint32_t column = 1 + random.below(bays - 1);
     const float t = random.uniform(), drop = random.uniform();
     const float along = random.bell();
-    site.position = {columnX(static_cast<int>(column)) + 0.15 * along,
+    site.position = {columnX(int(column)) + 0.15 * along,
                      hanging(cableY, cableSag, t) - 0.08 - 0.25 * drop,
                      (2 * t - 1) * (naveHalf - 0.6)};
     site.radius = random.skewed(0.04f, 0.15f);
-    site.colour = glassColour(random, static_cast<int>(column));
+    site.colour = glassColour(random, int(column));
     setGlow(site, 280);
     return site;
 }
@@ -92,7 +92,7 @@ LightSite onCable(Random& random)
 LightSite onGarland(Random& random)
 {
     LightSite site;
-    const int bay = static_cast<int>(random.below(bays));
+    const int bay = int(random.below(bays));
     const float side = random.side(), t = random.uniform(), drop = random.uniform();
     site.position = {columnX(bay) + 0.3 + t * (bayWidth - 0.6),
                      hanging(garlandY, garlandSag, t) - 0.06 - 0.15 * drop, side * naveHalf};
@@ -106,7 +106,7 @@ LightSite onGarland(Random& random)
 LightSite aroundColumn(Random& random)
 {
     LightSite site;
-    const int column = static_cast<int>(random.below(bays + 1));
+    const int column = int(random.below(bays + 1));
     const float side = random.side(), t = random.uniform(), out = random.uniform();
     const double angle = 2 * pi * 4 * t + column;
     const double distance = columnRadius + 0.12 + 0.25 * out * out;
@@ -122,7 +122,7 @@ LightSite aroundColumn(Random& random)
 LightSite onFloor(Random& random)
 {
     LightSite site;
-    const int bay = static_cast<int>(random.below(bays));
+    const int bay = int(random.below(bays));
     const float side = random.side(), across = random.bell(), along = random.uniform();
     const float size = random.uniform();
     site.radius = 0.07f + 0.25f * size * size;
@@ -138,7 +138,7 @@ LightSite onFloor(Random& random)
 LightSite onWall(Random& random)
 {
     LightSite site;
-    const int column = static_cast<int>(random.below(bays + 1));
+    const int column = int(random.below(bays + 1));
     const float side = random.side(), up = random.uniform(), along = random.bell();
     site.radius = random.skewed(0.06f, 0.20f);
     site.position = {columnX(column) + 1.4 * along, 2.2 + 4.5 * up,
@@ -166,8 +166,8 @@ LightSite onGallery(Random& random)
 LightSite underVault(Random& random)
 {
     LightSite site;
-    const float angle = static_cast<float>(pi) * random.uniform(0.08f, 0.92f);
-    const int rib = static_cast<int>(random.below(bays + 1));
+    const float angle = float(pi) * random.uniform(0.08f, 0.92f);
+    const int rib = int(random.below(bays + 1));
     const float along = random.bell();
     const double distance = vaultRadius - 0.75;
     site.position = {columnX(rib) + 0.8 * along, vaultSpringing + distance * std::sin(angle),
@@ -215,7 +215,7 @@ LightSite firefly(Random& random)
 LightSite inPavement(Random& random)
 {
     LightSite site;
-    const uint32_t cell = random.below(2 * static_cast<uint32_t>(halfLength));
+    const uint32_t cell = random.below(2 * uint32_t(halfLength));
     const float across = random.uniform(-1, 1), along = random.bell();
     site.radius = random.uniform(0.02f, 0.045f);
     site.position = {cell - halfLength + 0.08 * along, 0.03 + site.radius, 3.9 * across};

@@ -20,7 +20,7 @@ LightGrid::LightGrid(const std::vector<glm::dvec3>& positions)
     const double longest = std::max({size.x, size.y, size.z, 1e-3});
     const glm::dvec3 extent = glm::max(size, glm::dvec3(longest / 256));
     // There are about two lights per cell.
-    cell_ = std::cbrt(2 * extent.x * extent.y * extent.z / static_cast<double>(positions.size()));
+    cell_ = std::cbrt(2 * extent.x * extent.y * extent.z / double(positions.size()));
     cell_ = std::max(cell_, longest / 1024);
     origin_ = low;
     size_ = glm::ivec3(glm::floor(size / cell_)) + 1;
@@ -28,9 +28,9 @@ LightGrid::LightGrid(const std::vector<glm::dvec3>& positions)
 
     const auto flat = [this](const glm::dvec3& position) {
         const glm::ivec3 c = cellOf(position);
-        return (static_cast<size_t>(c.z) * size_.y + c.y) * size_.x + c.x;
+        return (size_t(c.z) * size_.y + c.y) * size_.x + c.x;
     };
-    starts_.assign(static_cast<size_t>(size_.x) * size_.y * size_.z + 1, 0);
+    starts_.assign(size_t(size_.x) * size_.y * size_.z + 1, 0);
     for (const glm::dvec3& position : positions)
         ++starts_[flat(position) + 1];
     for (size_t i = 1; i < starts_.size(); ++i)

@@ -23,7 +23,7 @@ public:
         for (int z = low.z; z <= high.z; ++z) {
             for (int y = low.y; y <= high.y; ++y) {
                 // Cells that are neighbours in x are neighbours in memory.
-                const size_t row = (static_cast<size_t>(z) * size_.y + y) * size_.x;
+                const size_t row = (size_t(z) * size_.y + y) * size_.x;
                 for (uint32_t i = starts_[row + low.x]; i < starts_[row + high.x + 1]; ++i)
                     visitor(order_[i]);
             }

@@ -54,8 +54,7 @@ std::vector<SurfaceSample> spreadSamples(const Scene& scene)
     Random random(0);
     for (uint32_t i = 0; i < spreadSampleCount; ++i) {
         const double at = area * (i + 0.5) / spreadSampleCount;
-        const size_t t =
-            static_cast<size_t>(std::ranges::lower_bound(areaUpTo, at) - areaUpTo.begin());
+        const size_t t = size_t(std::ranges::lower_bound(areaUpTo, at) - areaUpTo.begin());
         const WorldTriangle& triangle = triangles[std::min(t, triangles.size() - 1)];
         glm::dvec2 uv(random.uniform2());
         uv = uv.x + uv.y > 1 ? 1.0 - uv : uv;
@@ -153,9 +152,9 @@ double unlimitedScale(const std::vector<SurfaceSample>& samples,
 std::vector<SurfaceSample> thinned(const std::vector<SurfaceSample>& samples, double overlaps)
 {
     const double affordable = maxPairs / overlaps;
-    if (affordable >= static_cast<double>(samples.size()) || samples.size() <= minSamples)
+    if (affordable >= double(samples.size()) || samples.size() <= minSamples)
         return samples;
-    const size_t wanted = std::max(minSamples, static_cast<size_t>(affordable));
+    const size_t wanted = std::max(minSamples, size_t(affordable));
     std::vector<SurfaceSample> some;
     for (size_t i = 0; i < wanted; ++i)
         some.push_back(samples[i * samples.size() / wanted]);
@@ -193,8 +192,7 @@ OverlapScale scaleForOverlaps(const std::vector<SurfaceSample>& samples,
         return {};
     const std::vector<SurfaceSample> used = thinned(samples, overlaps);
     const GridsByReach grids(lights);
-    const size_t wanted = std::max<size_t>(
-        1, static_cast<size_t>(std::llround(overlaps * static_cast<double>(used.size()))));
+    const size_t wanted = std::max<size_t>(1, size_t(std::llround(overlaps * double(used.size()))));
     // From below: 30% steps of the scale at most double the pairs, so the last step dominates.
     const double unlimited = unlimitedScale(used, lights);
     double scale = unlimited / 1024;
@@ -208,10 +206,10 @@ OverlapScale scaleForOverlaps(const std::vector<SurfaceSample>& samples,
         collect(std::numeric_limits<size_t>::max());
     }
     if (criticals.size() < wanted)
-        return {0, static_cast<double>(criticals.size()) / static_cast<double>(used.size())};
+        return {0, double(criticals.size()) / double(used.size())};
     if (criticals.size() == wanted)
         return {unlimited, overlaps};
-    const auto middle = criticals.begin() + static_cast<std::ptrdiff_t>(wanted);
+    const auto middle = criticals.begin() + std::ptrdiff_t(wanted);
     std::nth_element(criticals.begin(), middle, criticals.end());
     return {*middle, overlaps};
 }

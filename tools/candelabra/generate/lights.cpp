@@ -43,7 +43,7 @@ OverlapScale findScale(const Scene& scene, const std::vector<LightReach>& reache
     const std::vector<SurfaceSample> samples = visibleSamples(scene);
     if (samples.empty())
         throw SceneError(scene.name + ": lights: there is no surface for them to light");
-    const double count = static_cast<double>(reaches.size());
+    const double count = double(reaches.size());
     const double wanted = options.overlaps.value_or(std::min(defaultOverlaps, 0.5 * count));
     OverlapScale found = scaleForOverlaps(samples, reaches, wanted);
     if (found.scale == 0 && !options.overlaps)
@@ -64,9 +64,8 @@ CndLight makeLight(const LightSite& site, const LightReach& reach, double scale,
     CndLight light{};
     light.type = CND_LIGHT_SPHERE;
     const glm::vec3 position(site.position - origin);
-    light.influenceRadius = static_cast<float>(scale * reach.reach);
-    light.radius = static_cast<float>(
-        std::min(reach.radius, reach.radiusShare * static_cast<double>(light.influenceRadius)));
+    light.influenceRadius = float(scale * reach.reach);
+    light.radius = float(std::min(reach.radius, reach.radiusShare * double(light.influenceRadius)));
     // I = E d^2, Phi = 4 pi I.
     const float luminousPower =
         4 * pi_v<float> * site.edgeIlluminance * light.influenceRadius * light.influenceRadius;
@@ -127,7 +126,7 @@ LightMotion circleMotion(Random& random, double height, float lightRadius, float
     motion.angularSpeed = turn * speed / radius;
     const glm::vec2 d{std::cos(azimuth), std::sin(azimuth)};
     // Half of the room below is left, so that rounding cannot bring the light down.
-    const float room = 0.5f * std::max(static_cast<float>(height) - lightRadius, 0.0f);
+    const float room = 0.5f * std::max(float(height) - lightRadius, 0.0f);
     motion.axisU = radius * glm::vec3(d.x, 0, d.y);
     motion.axisV = glm::vec3(-radius * d.y, glm::clamp(radius * tilt, -room, room), radius * d.x);
     return motion;
@@ -156,8 +155,8 @@ void addSphereLights(Scene& scene, const std::vector<LightSite>& sites, const Sc
 {
     if (sites.empty())
         return;
-    const double crowding = std::min(
-        1.0, std::sqrt(static_cast<double>(defaultLightCount) / static_cast<double>(sites.size())));
+    const double crowding =
+        std::min(1.0, std::sqrt(double(defaultLightCount) / double(sites.size())));
     std::vector<LightReach> reaches;
     reaches.reserve(sites.size());
     for (const LightSite& site : sites) {
@@ -231,7 +230,7 @@ void addRandomLights(Scene& scene, const SceneOptions& options, float edgeIllumi
             site.position = bounds.min + glm::dvec3(random.uniform3()) * size;
             // Mostly small: 0.05% to 0.6% of the diagonal, the square favours the small ones.
             const float share = random.uniform();
-            site.radius = static_cast<float>(diagonal) * (0.0005f + 0.0055f * share * share);
+            site.radius = float(diagonal) * (0.0005f + 0.0055f * share * share);
             if (!standsInFront(scene, site))
                 break;
         }
@@ -244,7 +243,7 @@ void addRandomLights(Scene& scene, const SceneOptions& options, float edgeIllumi
             site.colour = hueColour(hue, random.uniform(0.4f, 0.85f));
         }
         if (options.moving) {
-            const float radius = static_cast<float>(diagonal) * motionRandom.uniform(0.005f, 0.03f);
+            const float radius = float(diagonal) * motionRandom.uniform(0.005f, 0.03f);
             site.motion = circleMotion(motionRandom, site.position.y - bounds.min.y, site.radius,
                                        radius, 0.7f * radius);
         }

@@ -24,7 +24,7 @@ struct LightSite {
     glm::dvec3 position{0}; // world space
     // The radius in metres, and as a share of the influence radius; the smaller one is taken.
     float radius = 0.05f;
-    float radiusShare = static_cast<float>(maxRadiusShare);
+    float radiusShare = float(maxRadiusShare);
     float reach = 1;     // influence radius relative to that of the others, > 0
     glm::vec3 colour{1}; // linear Rec.709 with luminance 1
     // The luminance of the light in cd/m^2. Without one, the illuminance in lx at the distance of

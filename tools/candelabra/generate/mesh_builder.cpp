@@ -15,7 +15,7 @@ uint32_t appendVertex(Mesh& mesh, const SurfacePoint& point, const glm::vec2& uv
     vertex.tangent = glm::vec4(glm::normalize(tangent), 1);
     vertex.uv[0] = vertex.uv[1] = uv;
     mesh.vertices.push_back(vertex);
-    return static_cast<uint32_t>(mesh.vertices.size() - 1);
+    return uint32_t(mesh.vertices.size() - 1);
 }
 
 void appendTriangle(Mesh& mesh, uint32_t a, uint32_t b, uint32_t c)
@@ -60,7 +60,7 @@ void appendQuad(Mesh& mesh, const glm::vec3& a, const glm::vec3& b, const glm::v
 
 void appendMesh(Mesh& mesh, const Mesh& part, const glm::mat4& transform)
 {
-    const uint32_t first = static_cast<uint32_t>(mesh.vertices.size());
+    const uint32_t first = uint32_t(mesh.vertices.size());
     const glm::mat3 linear(transform);
     const glm::mat3 normalTransform = glm::transpose(glm::inverse(linear));
     for (Vertex vertex : part.vertices) {

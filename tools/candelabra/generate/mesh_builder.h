@@ -48,11 +48,10 @@ inline glm::vec2 direction(float angle)
 template <typename Surface>
 void appendGrid(Mesh& mesh, uint32_t columns, uint32_t rows, Surface&& at)
 {
-    const uint32_t first = static_cast<uint32_t>(mesh.vertices.size());
+    const uint32_t first = uint32_t(mesh.vertices.size());
     for (uint32_t row = 0; row <= rows; ++row) {
         for (uint32_t column = 0; column <= columns; ++column) {
-            const glm::vec2 uv{static_cast<float>(column) / static_cast<float>(columns),
-                               static_cast<float>(row) / static_cast<float>(rows)};
+            const glm::vec2 uv{float(column) / float(columns), float(row) / float(rows)};
             appendVertex(mesh, at(uv.x, uv.y), uv);
         }
     }

@@ -35,21 +35,18 @@ public:
     {
         const uint64_t old = state_;
         state_ = old * 6364136223846793005ull + increment_;
-        const uint32_t xorShifted = static_cast<uint32_t>(((old >> 18u) ^ old) >> 27u);
-        const uint32_t rotation = static_cast<uint32_t>(old >> 59u);
+        const uint32_t xorShifted = uint32_t(((old >> 18u) ^ old) >> 27u);
+        const uint32_t rotation = uint32_t(old >> 59u);
         return xorShifted >> rotation | xorShifted << ((0u - rotation) & 31u);
     }
 
     // Uniform in [0, 1). It has 24 bits, so that the float is exact and never rounds to 1.
-    float uniform() { return static_cast<float>(bits() >> 8u) * 0x1p-24f; }
+    float uniform() { return float(bits() >> 8u) * 0x1p-24f; }
 
     float uniform(float low, float high) { return low + (high - low) * uniform(); }
 
     // Uniform in 0 .. count - 1, but for a bias of count / 2^32, which does not matter here.
-    uint32_t below(uint32_t count)
-    {
-        return static_cast<uint32_t>(static_cast<uint64_t>(bits()) * count >> 32u);
-    }
+    uint32_t below(uint32_t count) { return uint32_t(uint64_t(bits()) * count >> 32u); }
 
     bool chance(float probability) { return uniform() < probability; }
 

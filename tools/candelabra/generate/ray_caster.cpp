@@ -114,7 +114,7 @@ BoxTree::BoxTree(const std::vector<Bounds>& boxes)
     std::iota(order_.begin(), order_.end(), 0u);
     if (!boxes.empty()) {
         nodes_.reserve(boxes.size());
-        build(boxes, 0, static_cast<uint32_t>(boxes.size()));
+        build(boxes, 0, uint32_t(boxes.size()));
     }
 }
 
@@ -147,7 +147,7 @@ void BoxTree::build(const std::vector<Bounds>& boxes, uint32_t first, uint32_t c
                                 boxes[b].min[axis] + boxes[b].max[axis];
                      });
     build(boxes, first, half);
-    nodes_[self].first = static_cast<uint32_t>(nodes_.size());
+    nodes_[self].first = uint32_t(nodes_.size());
     build(boxes, first + half, count - half);
 }
 
@@ -342,7 +342,7 @@ Ray cameraRay(const Camera& camera, uint32_t x, uint32_t y, uint32_t width, uint
 {
     const glm::dvec3 right = glm::normalize(glm::cross(camera.forward, camera.up));
     const glm::dvec3 up = glm::cross(right, camera.forward);
-    const double aspect = camera.aspect.value_or(static_cast<double>(width) / height);
+    const double aspect = camera.aspect.value_or(double(width) / height);
     const double ndcX = 2 * (x + 0.5) / width - 1, ndcY = 1 - 2 * (y + 0.5) / height;
     if (camera.orthographic) {
         const double half = 0.5 * camera.orthographicHeight;

@@ -33,13 +33,13 @@ struct SceneBuilder {
     uint32_t addMesh(Mesh mesh)
     {
         scene.meshes.push_back(std::move(mesh));
-        return static_cast<uint32_t>(scene.meshes.size() - 1);
+        return uint32_t(scene.meshes.size() - 1);
     }
 
     uint32_t addMaterial(Material material)
     {
         scene.materials.push_back(std::move(material));
-        return static_cast<uint32_t>(scene.materials.size() - 1);
+        return uint32_t(scene.materials.size() - 1);
     }
 
     // `baseColor` is the reflectance of the metal at normal incidence (F0), in linear Rec.709.

@@ -198,9 +198,9 @@ Mesh makeLathe(const std::vector<ProfileRun>& runs, uint32_t segments)
     Mesh mesh;
     for (const ProfileRun& run : runs) {
         const std::vector<glm::vec2> normals = profileNormals(run);
-        const float last = static_cast<float>(run.size() - 1);
-        appendGrid(mesh, segments, static_cast<uint32_t>(run.size() - 1), [&](float u, float v) {
-            const size_t i = static_cast<size_t>(v * last + 0.5f);
+        const float last = float(run.size() - 1);
+        appendGrid(mesh, segments, uint32_t(run.size() - 1), [&](float u, float v) {
+            const size_t i = size_t(v * last + 0.5f);
             return SurfacePoint{around(u) * run[i].x + glm::vec3(0, run[i].y, 0),
                                 around(u) * normals[i].x + glm::vec3(0, normals[i].y, 0),
                                 aroundTangent(u)};
@@ -241,8 +241,7 @@ Mesh makeArchedWall(float width, float height, float depth, float radius, uint32
     const auto sweep = [&angles](float end, uint32_t steps) {
         const float start = angles.back();
         for (uint32_t i = 1; i <= steps; ++i) {
-            angles.push_back(start +
-                             (end - start) * static_cast<float>(i) / static_cast<float>(steps));
+            angles.push_back(start + (end - start) * float(i) / float(steps));
         }
     };
     sweep(cornerAngle, sideSteps);

@@ -84,7 +84,7 @@ CndLight makeLamp(uint32_t type, double x, const glm::vec3& colour)
     const uint32_t fields = cndLightFields(type);
     CndLight light = lightTypeInfo(type).lamp;
     light.type = type;
-    set(light.position, {static_cast<float>(x), 1.5f, -0.15f});
+    set(light.position, {float(x), 1.5f, -0.15f});
     light.influenceRadius = 7;
     const glm::vec3 down = glm::normalize(glm::vec3(0, -1, 0.7f));
     const glm::vec3 up = glm::cross(glm::vec3(1, 0, 0), down); // in the plane of a flat lamp
@@ -180,7 +180,7 @@ Scene generateShowcase(const SceneOptions& options)
             b.scene.lightMotions.push_back({.axisU = {0.4f, 0, 0},
                                             .axisV = {0, 0, 0.4f},
                                             .angularSpeed = 0.7f,
-                                            .phase = static_cast<float>(i)});
+                                            .phase = float(i)});
 
     Scene scene = std::move(b.scene);
     scene.background = {0.6f, 0.38f, 0.5f}; // cd/m^2

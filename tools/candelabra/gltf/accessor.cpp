@@ -33,7 +33,7 @@ float component(const uint8_t* p, int type, bool normalized)
         return normalized ? std::max(x / 127.0f, -1.0f) : x;
     }
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-        return normalized ? static_cast<float>(*p) / 255.0f : static_cast<float>(*p);
+        return normalized ? float(*p) / 255.0f : float(*p);
     case TINYGLTF_COMPONENT_TYPE_SHORT: {
         const float x = load<int16_t>(p);
         return normalized ? std::max(x / 32767.0f, -1.0f) : x;
@@ -43,7 +43,7 @@ float component(const uint8_t* p, int type, bool normalized)
         return normalized ? x / 65535.0f : x;
     }
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-        return static_cast<float>(load<uint32_t>(p));
+        return float(load<uint32_t>(p));
     default:
         return load<float>(p);
     }
@@ -61,18 +61,17 @@ uint32_t unsignedComponent(const uint8_t* p, int type)
 } // namespace
 
 GltfAccessor::GltfAccessor(const GltfDocument& document, int index)
-    : document_(document), element_(gltfElement("accessors", static_cast<size_t>(index)))
+    : document_(document), element_(gltfElement("accessors", size_t(index)))
 {
-    const tinygltf::Accessor& accessor = document.model.accessors[static_cast<size_t>(index)];
-    const int components = tinygltf::GetNumComponentsInType(static_cast<uint32_t>(accessor.type));
+    const tinygltf::Accessor& accessor = document.model.accessors[size_t(index)];
+    const int components = tinygltf::GetNumComponentsInType(uint32_t(accessor.type));
     const bool isMatrix = accessor.type > TINYGLTF_TYPE_VEC4 && accessor.type <= TINYGLTF_TYPE_MAT4;
     components_ = isMatrix ? 0 : components;
     componentType_ = accessor.componentType;
     isMatrix4_ = accessor.type == TINYGLTF_TYPE_MAT4 && isFloat();
-    componentSize_ = static_cast<size_t>(
-        tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(accessor.componentType)));
+    componentSize_ = size_t(tinygltf::GetComponentSizeInBytes(uint32_t(accessor.componentType)));
     normalized_ = accessor.normalized;
-    const size_t elementSize = componentSize_ * static_cast<size_t>(components);
+    const size_t elementSize = componentSize_ * size_t(components);
     if (accessor.bufferView >= 0)
         elements_ =
             locate(accessor.bufferView, accessor.byteOffset, accessor.count, elementSize, true);
@@ -88,7 +87,7 @@ GltfAccessor::Elements GltfAccessor::locate(int view, uint64_t byteOffset, uint6
                                             size_t elementSize, bool mayBeStrided) const
 {
     const std::span<const uint8_t> bytes = document_.bufferView(view, element_);
-    const size_t declared = document_.model.bufferViews[static_cast<size_t>(view)].byteStride;
+    const size_t declared = document_.model.bufferViews[size_t(view)].byteStride;
     const size_t stride = mayBeStrided && declared ? declared : elementSize;
     if (stride < elementSize)
         document_.fail(element_, "has elements of " + std::to_string(elementSize) +
@@ -97,36 +96,32 @@ GltfAccessor::Elements GltfAccessor::locate(int view, uint64_t byteOffset, uint6
     // count is compared first, so that the product below cannot overflow.
     if (byteOffset > bytes.size() || count > bytes.size() ||
         stride * (count - 1) + elementSize > bytes.size() - byteOffset)
-        document_.fail(
-            element_,
-            std::to_string(count) + " elements do not fit into the " +
-                std::to_string(bytes.size()) + " bytes of bufferViews[" + std::to_string(view) +
-                "]" +
-                (bytes.size() < document_.model.bufferViews[static_cast<size_t>(view)].byteLength
-                     ? ", whose buffer is cut short"
-                     : ""));
+        document_.fail(element_,
+                       std::to_string(count) + " elements do not fit into the " +
+                           std::to_string(bytes.size()) + " bytes of bufferViews[" +
+                           std::to_string(view) + "]" +
+                           (bytes.size() < document_.model.bufferViews[size_t(view)].byteLength
+                                ? ", whose buffer is cut short"
+                                : ""));
     return {bytes.data() + byteOffset, stride};
 }
 
 void GltfAccessor::readSparse(const tinygltf::Accessor& accessor)
 {
     const auto& sparse = accessor.sparse;
-    const auto count = static_cast<uint64_t>(sparse.count);
+    const auto count = uint64_t(sparse.count);
     const int type = sparse.indices.componentType;
     if (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
         type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
         type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
         document_.fail(element_,
                        "sparse.indices.componentType must be unsigned, is " + std::to_string(type));
-    const auto indexSize =
-        static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(type)));
-    const Elements indices =
-        locate(sparse.indices.bufferView, static_cast<uint64_t>(sparse.indices.byteOffset), count,
-               indexSize, false);
-    const int components = tinygltf::GetNumComponentsInType(static_cast<uint32_t>(accessor.type));
-    sparseValues_ =
-        locate(sparse.values.bufferView, static_cast<uint64_t>(sparse.values.byteOffset), count,
-               componentSize_ * static_cast<size_t>(components), false);
+    const auto indexSize = size_t(tinygltf::GetComponentSizeInBytes(uint32_t(type)));
+    const Elements indices = locate(sparse.indices.bufferView, uint64_t(sparse.indices.byteOffset),
+                                    count, indexSize, false);
+    const int components = tinygltf::GetNumComponentsInType(uint32_t(accessor.type));
+    sparseValues_ = locate(sparse.values.bufferView, uint64_t(sparse.values.byteOffset), count,
+                           componentSize_ * size_t(components), false);
     sparseIndices_.reserve(count);
     for (uint64_t k = 0; k < count; ++k) {
         const uint32_t i = unsignedComponent(indices.data + k * indices.stride, type);
@@ -144,8 +139,7 @@ const uint8_t* GltfAccessor::find(size_t i) const
     if (!sparseIndices_.empty()) {
         const auto it = std::ranges::lower_bound(sparseIndices_, i);
         if (it != sparseIndices_.end() && *it == i)
-            return sparseValues_.data +
-                   static_cast<size_t>(it - sparseIndices_.begin()) * sparseValues_.stride;
+            return sparseValues_.data + size_t(it - sparseIndices_.begin()) * sparseValues_.stride;
     }
     return elements_.data ? elements_.data + i * elements_.stride : nullptr;
 }
@@ -155,8 +149,7 @@ glm::vec4 GltfAccessor::read(size_t i) const
     glm::vec4 value{0};
     const uint8_t* p = find(i);
     for (int c = 0; p && c < components_; ++c) {
-        value[c] =
-            component(p + static_cast<size_t>(c) * componentSize_, componentType_, normalized_);
+        value[c] = component(p + size_t(c) * componentSize_, componentType_, normalized_);
         if (!std::isfinite(value[c]))
             document_.fail(element_, "element " + std::to_string(i) + " is not finite");
     }
@@ -174,7 +167,7 @@ glm::dmat4 GltfAccessor::readMatrix(size_t i) const
     glm::dmat4 matrix{0};
     const uint8_t* p = find(i);
     for (int k = 0; p && k < 16; ++k) {
-        matrix[k / 4][k % 4] = load<float>(p + static_cast<size_t>(k) * componentSize_);
+        matrix[k / 4][k % 4] = load<float>(p + size_t(k) * componentSize_);
         if (!std::isfinite(matrix[k / 4][k % 4]))
             document_.fail(element_, "element " + std::to_string(i) + " is not finite");
     }

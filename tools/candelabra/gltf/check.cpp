@@ -45,7 +45,7 @@ void visitIndices(const Json& value, std::span<const Field> fields, const auto& 
         const auto reference = [&](const Json& index) {
             if (index.is_number() && index.get<double>() >= 0 &&
                 index.get<double>() <= schema::maxInteger)
-                found(field.target, static_cast<size_t>(index.get<double>()));
+                found(field.target, size_t(index.get<double>()));
         };
         if (field.kind == Kind::Index)
             reference(*member);
@@ -185,14 +185,14 @@ void Repairer::repairInteger(Json& value, const std::string& path, const NumberR
     if (value.is_number_float()) {
         const double x = value.get<double>();
         if (std::abs(x) <= schema::maxByte && x == std::floor(x)) {
-            const auto whole = static_cast<int64_t>(x);
+            const auto whole = int64_t(x);
             warnings_.addOfKind("integer", path,
                                 "is an integer that is written as " + value.dump() + "; " +
                                     std::to_string(whole) + " is used");
             value = whole;
         }
     }
-    at(value, path).integer(static_cast<int64_t>(range.min), static_cast<int64_t>(range.max));
+    at(value, path).integer(int64_t(range.min), int64_t(range.max));
 }
 
 void Repairer::repairIndex(Json& value, const std::string& path, const char* target)

@@ -70,7 +70,7 @@ protected:
         uint64_t bytes = 0;
         for (int i = 0; i < points.num_attributes(); ++i)
             bytes += uint64_t{points.attribute(i)->num_components()} *
-                     static_cast<uint64_t>(draco::DataTypeLength(points.attribute(i)->data_type()));
+                     uint64_t(draco::DataTypeLength(points.attribute(i)->data_type()));
         return limits_.allow(points.num_points(), limits_.vertices, "vertices") &&
                limits_.allow(bytes, maxVertexBytes, "bytes per vertex") &&
                Decoder::DecodeAllAttributes();
@@ -120,18 +120,18 @@ int addAccessor(GltfDocument& document, const std::vector<T>& values, int compon
 {
     const auto* bytes = reinterpret_cast<const uint8_t*>(values.data());
     tinygltf::BufferView view;
-    view.buffer = static_cast<int>(document.buffers.size());
+    view.buffer = int(document.buffers.size());
     view.byteLength = values.size() * sizeof(T);
     document.buffers.emplace_back(bytes, bytes + view.byteLength);
     tinygltf::Accessor accessor;
-    accessor.bufferView = static_cast<int>(document.model.bufferViews.size());
+    accessor.bufferView = int(document.model.bufferViews.size());
     accessor.componentType = componentType;
     accessor.normalized = normalized;
-    accessor.count = values.size() / static_cast<size_t>(components);
+    accessor.count = values.size() / size_t(components);
     accessor.type = components == 1 ? TINYGLTF_TYPE_SCALAR : components;
     document.model.bufferViews.push_back(view);
     document.model.accessors.push_back(accessor);
-    return static_cast<int>(document.model.accessors.size()) - 1;
+    return int(document.model.accessors.size()) - 1;
 }
 
 // The values of an attribute for all vertices, as numbers of type T.
@@ -139,11 +139,11 @@ template <typename T>
 std::optional<std::vector<T>> values(const draco::Mesh& mesh,
                                      const draco::PointAttribute& attribute, int components)
 {
-    const auto width = static_cast<size_t>(components);
+    const auto width = size_t(components);
     std::vector<T> out(mesh.num_points() * width);
     for (uint32_t i = 0; i < mesh.num_points(); ++i)
         if (!attribute.ConvertValue<T>(attribute.mapped_index(draco::PointIndex(i)),
-                                       static_cast<int8_t>(components), &out[i * width]))
+                                       int8_t(components), &out[i * width]))
             return std::nullopt;
     return out;
 }
@@ -152,7 +152,7 @@ std::optional<std::vector<T>> values(const draco::Mesh& mesh,
 int addAttribute(GltfDocument& document, const std::string& element, const draco::Mesh& mesh,
                  const draco::PointAttribute& attribute, const tinygltf::Accessor& like)
 {
-    const int components = tinygltf::GetNumComponentsInType(static_cast<uint32_t>(like.type));
+    const int components = tinygltf::GetNumComponentsInType(uint32_t(like.type));
     if (like.type > TINYGLTF_TYPE_VEC4 && like.type <= TINYGLTF_TYPE_MAT4)
         document.fail(element, "has an attribute of matrices");
     const auto add = [&](auto zero) {
@@ -224,8 +224,7 @@ void decompressPrimitive(GltfDocument& document, const nlohmann::json& json,
         if (!attribute)
             document.fail(element, "has no attribute " + std::to_string(id.get<uint32_t>()) +
                                        ", which is to be " + name);
-        const tinygltf::Accessor like =
-            document.model.accessors[static_cast<size_t>(declared->second)];
+        const tinygltf::Accessor like = document.model.accessors[size_t(declared->second)];
         declared->second = addAttribute(document, element, mesh, *attribute, like);
     }
     primitive.indices = addIndices(document, mesh);

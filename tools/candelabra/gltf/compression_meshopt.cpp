@@ -118,7 +118,7 @@ void decompressMeshopt(GltfDocument& document)
                 source.fail("brings the decompressed data above 4 GiB");
             std::vector<uint8_t> bytes = decompress(view);
             tinygltf::BufferView& plain = document.model.bufferViews[i];
-            plain.buffer = static_cast<int>(document.buffers.size());
+            plain.buffer = int(document.buffers.size());
             plain.byteOffset = 0;
             plain.byteLength = bytes.size();
             document.buffers.push_back(std::move(bytes));

@@ -56,8 +56,8 @@ GltfContainer splitBinary(const std::string& path, const std::vector<uint8_t>& b
                           " are left");
         if ((index == 0) != (type == jsonChunk))
             failScene(path, element, index ? "is a second JSON chunk" : "is not the JSON chunk");
-        const auto begin = bytes.begin() + static_cast<ptrdiff_t>(at);
-        const auto end = begin + static_cast<ptrdiff_t>(size);
+        const auto begin = bytes.begin() + ptrdiff_t(at);
+        const auto end = begin + ptrdiff_t(size);
         if (index == 0)
             container.json.assign(begin, end);
         else if (index == 1 && type == binaryChunk)
@@ -79,7 +79,7 @@ bool decodeBase64(std::string_view text, std::vector<uint8_t>& out)
         const std::string_view digits =
             "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
         for (size_t i = 0; i < digits.size(); ++i)
-            table[static_cast<uint8_t>(digits[i])] = static_cast<int8_t>(i);
+            table[uint8_t(digits[i])] = int8_t(i);
         return table;
     }();
     for (int i = 0; i < 2 && !text.empty() && text.back() == '='; ++i)
@@ -89,14 +89,14 @@ bool decodeBase64(std::string_view text, std::vector<uint8_t>& out)
     uint32_t bits = 0;
     int bitCount = 0;
     for (const char c : text) {
-        const int8_t value = values[static_cast<uint8_t>(c)];
+        const int8_t value = values[uint8_t(c)];
         if (value < 0)
             return false;
-        bits = (bits << 6 | static_cast<uint32_t>(value)) & 0xFFFFFF;
+        bits = (bits << 6 | uint32_t(value)) & 0xFFFFFF;
         bitCount += 6;
         if (bitCount >= 8) {
             bitCount -= 8;
-            out.push_back(static_cast<uint8_t>(bits >> bitCount));
+            out.push_back(uint8_t(bits >> bitCount));
         }
     }
     return bitCount < 6; // a single digit at the end would be no byte
@@ -125,7 +125,7 @@ bool decodePercent(const std::string& uri, std::string& out)
         const int high = hexDigit(uri[i + 1]), low = hexDigit(uri[i + 2]);
         if (high < 0 || low < 0)
             return false;
-        out += static_cast<char>(high * 16 + low);
+        out += char(high * 16 + low);
         i += 2;
     }
     return true;
@@ -228,7 +228,7 @@ void parseWithTinyGltf(GltfDocument& document)
     bool loaded = false;
     try {
         loaded = loader.LoadASCIIFromString(&document.model, &error, &warning, text.data(),
-                                            static_cast<unsigned>(text.size()), "");
+                                            unsigned(text.size()), "");
     } catch (const std::exception& e) {
         error = e.what();
     }
@@ -262,8 +262,8 @@ std::string GltfDocument::withoutFile(const std::string& message) const
 
 std::span<const uint8_t> GltfDocument::bufferView(int index, const std::string& element) const
 {
-    const tinygltf::BufferView& view = model.bufferViews[static_cast<size_t>(index)];
-    const std::vector<uint8_t>& buffer = buffers[static_cast<size_t>(view.buffer)];
+    const tinygltf::BufferView& view = model.bufferViews[size_t(index)];
+    const std::vector<uint8_t>& buffer = buffers[size_t(view.buffer)];
     const std::string beyond = "bufferViews[" + std::to_string(index) +
                                "] extends beyond its buffer of " + std::to_string(buffer.size()) +
                                " bytes";

@@ -92,8 +92,8 @@ CndLight lightOf(const Rectangle& r, const Material& material)
     CndLight light = {};
     light.type = CND_LIGHT_RECTANGLE;
     for (int i = 0; i < 3; ++i) {
-        light.axisU[i] = static_cast<float>(r.halfU[i]);
-        light.axisV[i] = static_cast<float>(r.halfV[i]);
+        light.axisU[i] = float(r.halfU[i]);
+        light.axisV[i] = float(r.halfV[i]);
         light.emission[i] = material.emission[i];
     }
     light.twoSided = material.doubleSided;

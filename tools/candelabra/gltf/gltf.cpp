@@ -78,8 +78,7 @@ private:
     int64_t mesh(size_t gltfMesh, size_t primitive, const GltfPose& pose, bool mirrored);
     uint32_t material(const tinygltf::Primitive& primitive) const
     {
-        return primitive.material < 0 ? defaultMaterial_
-                                      : static_cast<uint32_t>(primitive.material);
+        return primitive.material < 0 ? defaultMaterial_ : uint32_t(primitive.material);
     }
 
     const GltfDocument& document_;
@@ -131,7 +130,7 @@ int64_t SceneBuilder::mesh(size_t gltfMesh, size_t primitive, const GltfPose& po
     if (mirrored) {
         const int64_t original = mesh(gltfMesh, primitive, pose, false);
         if (original != noMesh) {
-            const Mesh& source = scene_.meshes[static_cast<size_t>(original)];
+            const Mesh& source = scene_.meshes[size_t(original)];
             takeGltfBudget(document_, gltfElement("meshes", gltfMesh), source.vertices.size(),
                            source.indices.size(), budget_);
             result = mirroredMesh(source);
@@ -144,7 +143,7 @@ int64_t SceneBuilder::mesh(size_t gltfMesh, size_t primitive, const GltfPose& po
         }));
     }
     if (result) {
-        index = static_cast<int64_t>(scene_.meshes.size());
+        index = int64_t(scene_.meshes.size());
         scene_.meshes.push_back(std::move(*result));
     }
     meshes_.emplace(key, index);
@@ -154,7 +153,7 @@ int64_t SceneBuilder::mesh(size_t gltfMesh, size_t primitive, const GltfPose& po
 void SceneBuilder::addMesh(const GltfPlacedNode& placed)
 {
     const std::string element = gltfElement("nodes", placed.node);
-    const auto gltfMesh = static_cast<size_t>(document_.model.nodes[placed.node].mesh);
+    const auto gltfMesh = size_t(document_.model.nodes[placed.node].mesh);
     const GltfPose pose = poses_.of(placed);
     const size_t room = maxInstances - scene_.instances.size();
     std::vector<glm::dmat4> copies = readGltfInstancing(document_, placed.node, room);
@@ -197,11 +196,11 @@ void SceneBuilder::addInstance(const std::string& element, size_t gltfMesh, cons
         hasSurfaces_ = true;
         const uint32_t materialIndex = material(primitives[p]);
         if (options_.emissiveLights &&
-            emissive_.replace(scene_.meshes[static_cast<size_t>(index)],
-                              scene_.materials[materialIndex], worldFromMesh, lights_))
+            emissive_.replace(scene_.meshes[size_t(index)], scene_.materials[materialIndex],
+                              worldFromMesh, lights_))
             continue;
         requireRoom(element);
-        scene_.instances.push_back({static_cast<uint32_t>(index), materialIndex, worldFromMesh});
+        scene_.instances.push_back({uint32_t(index), materialIndex, worldFromMesh});
     }
 }
 
@@ -220,8 +219,7 @@ void SceneBuilder::countLeftOut(const tinygltf::Primitive& primitive)
     const int accessor = primitive.indices >= 0                    ? primitive.indices
                          : positions != primitive.attributes.end() ? positions->second
                                                                    : -1;
-    const size_t n =
-        accessor < 0 ? 0 : document_.model.accessors[static_cast<size_t>(accessor)].count;
+    const size_t n = accessor < 0 ? 0 : document_.model.accessors[size_t(accessor)].count;
     if (primitive.mode == TINYGLTF_MODE_POINTS)
         points_ += n;
     else if (n >= 2)
@@ -251,7 +249,7 @@ void SceneBuilder::warnOfLeftOut() const
 void SceneBuilder::addCamera(const GltfPlacedNode& placed)
 {
     const tinygltf::Node& node = document_.model.nodes[placed.node];
-    const auto index = static_cast<size_t>(node.camera);
+    const auto index = size_t(node.camera);
     const tinygltf::Camera& source = document_.model.cameras[index];
     const std::string element = gltfElement("cameras", index);
     Camera camera;
@@ -328,8 +326,8 @@ void setNodes(const GltfDocument& document, const std::vector<GltfPlacedNode>& p
     closeDownTo(0, scene.instances.size());
     for (size_t i = 0; i < placed.size(); ++i)
         if (ranges[i].count > 0)
-            scene.nodes.push_back({document.model.nodes[placed[i].node].name,
-                                   static_cast<uint32_t>(placed[i].node), ranges[i]});
+            scene.nodes.push_back(
+                {document.model.nodes[placed[i].node].name, uint32_t(placed[i].node), ranges[i]});
 }
 
 // Returns true if the content of a file is glTF: binary glTF begins with "glTF", and the JSON of

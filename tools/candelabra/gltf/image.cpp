@@ -64,8 +64,8 @@ Size sizeOf(const GltfDocument& document, const std::string& element,
     if (format == Format::WebP) {
         if (!WebPGetInfo(bytes.data(), bytes.size(), &size.width, &size.height))
             failDecode(document, element, "its WebP header is damaged");
-    } else if (!stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &size.width,
-                                      &size.height, &channels)) {
+    } else if (!stbi_info_from_memory(bytes.data(), int(bytes.size()), &size.width, &size.height,
+                                      &channels)) {
         failDecode(document, element, reasonOfStb());
     }
     return size;
@@ -75,7 +75,7 @@ Size sizeOf(const GltfDocument& document, const std::string& element,
 std::vector<uint8_t> pixelsOf(const GltfDocument& document, const std::string& element,
                               std::span<const uint8_t> bytes, Format format, Size size)
 {
-    const size_t count = static_cast<size_t>(size.width) * static_cast<size_t>(size.height) * 4;
+    const size_t count = size_t(size.width) * size_t(size.height) * 4;
     if (format == Format::WebP) {
         std::vector<uint8_t> out(count);
         if (!WebPDecodeRGBAInto(bytes.data(), bytes.size(), out.data(), count, 4 * size.width))
@@ -84,8 +84,8 @@ std::vector<uint8_t> pixelsOf(const GltfDocument& document, const std::string& e
     }
     int channels = 0;
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
-        stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &size.width,
-                              &size.height, &channels, 4),
+        stbi_load_from_memory(bytes.data(), int(bytes.size()), &size.width, &size.height, &channels,
+                              4),
         stbi_image_free);
     if (!pixels)
         failDecode(document, element, reasonOfStb());
@@ -100,7 +100,7 @@ Texture decodeGltfImage(const GltfDocument& document, const std::string& element
     const Format format = formatOf(bytes);
     if (format == Format::Other)
         document.fail(element, "is neither a PNG, a JPEG nor a WebP image");
-    if (bytes.size() > static_cast<size_t>(std::numeric_limits<int>::max()))
+    if (bytes.size() > size_t(std::numeric_limits<int>::max()))
         document.fail(element, "is larger than 2 GiB");
     const Size size = sizeOf(document, element, bytes, format);
     if (size.width < 1 || size.height < 1 || size.width > maxImageSide ||
@@ -108,11 +108,11 @@ Texture decodeGltfImage(const GltfDocument& document, const std::string& element
         document.fail(element, "has " + std::to_string(size.width) + " x " +
                                    std::to_string(size.height) +
                                    " pixels; at most 16384 a side are allowed");
-    if (static_cast<uint64_t>(size.width) * static_cast<uint64_t>(size.height) > texelsLeft)
+    if (uint64_t(size.width) * uint64_t(size.height) > texelsLeft)
         document.fail(element, "exceeds the 2 GiB of pixels that a scene's textures may have");
     Texture texture;
-    texture.width = static_cast<uint32_t>(size.width);
-    texture.height = static_cast<uint32_t>(size.height);
+    texture.width = uint32_t(size.width);
+    texture.height = uint32_t(size.height);
     texture.rgba = pixelsOf(document, element, bytes, format, size);
     return texture;
 }

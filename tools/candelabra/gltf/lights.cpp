@@ -34,9 +34,9 @@ void setEmission(const GltfDocument& document, const std::string& element, const
 {
     for (int i = 0; i < 3; ++i) {
         const double value = e.color[i] * e.intensity;
-        if (!(value <= static_cast<double>(std::numeric_limits<float>::max())))
+        if (!(value <= double(std::numeric_limits<float>::max())))
             document.fail(element, "emits more than single precision holds");
-        light.emission[i] = static_cast<float>(value);
+        light.emission[i] = float(value);
     }
 }
 
@@ -49,8 +49,8 @@ void setInfluence(const GltfDocument& document, const std::string& element, doub
     // Among the lights of glTF only rectangles have axes.
     const bool hasAxes = cndLightFields(light.type) & CND_LIGHT_FIELD_AXIS_U_BIT;
     const float size = cndEmitterBoundingRadius(&light);
-    if (static_cast<float>(range) > size * (hasAxes ? 1 + 1e-6f : 1.0f))
-        light.influenceRadius = static_cast<float>(range);
+    if (float(range) > size * (hasAxes ? 1 + 1e-6f : 1.0f))
+        light.influenceRadius = float(range);
     else
         document.warn(element + ".range",
                       fmt::format("must be greater than {}, {:g}, is {:g}; the light has no range",
@@ -61,7 +61,7 @@ void setInfluence(const GltfDocument& document, const std::string& element, doub
 void setRadius(const GltfDocument& document, const std::string& element, double radius,
                CndLight& light)
 {
-    light.radius = static_cast<float>(radius);
+    light.radius = float(radius);
     if (!(light.radius >= smallestRadius) || !(radius <= maxCoordinate))
         document.fail(element,
                       fmt::format("has a radius of {:g} m, which must be 1e-15 to 1e12", radius));
@@ -114,7 +114,7 @@ bool setDirection(const glm::dmat4& worldFromNode, CndLight& light)
     if (!(length > 0))
         return false;
     for (int i = 0; i < 3; ++i)
-        light.direction[i] = static_cast<float>(0 - z[i] / length); // avoids negative zeros
+        light.direction[i] = float(0 - z[i] / length); // avoids negative zeros
     return true;
 }
 
@@ -169,7 +169,7 @@ void addPunctual(const GltfDocument& document, size_t index, const GltfPlacedNod
                                           "--sun-radius gives them a size");
         if (options.sunRadius) {
             light.type = CND_LIGHT_DISTANT_SPHERE;
-            light.radius = static_cast<float>(*options.sunRadius);
+            light.radius = float(*options.sunRadius);
             // E = pi s^2 L
             emission.intensity /= pi * *options.sunRadius * *options.sunRadius;
         }
@@ -205,7 +205,7 @@ void setSides(const JsonValue& source, const glm::dmat4& worldFromNode, CndLight
         const auto json = source.find(key);
         const double length = json ? json->number(NumberRange::positive(maxCoordinate)) : 1;
         for (int i = 0; i < 3; ++i)
-            out[i] = static_cast<float>(0.5 * length * axis[i]);
+            out[i] = float(0.5 * length * axis[i]);
         if (!(glm::length(glm::vec3(out[0], out[1], out[2])) > 1e-15f))
             source.fail(std::string(key) + " is too small for single precision");
     };
@@ -262,7 +262,7 @@ void addArea(const GltfDocument& document, size_t index, const glm::dmat4& world
         if (disk) {
             const glm::dvec3 n = facing(worldFromNode);
             for (int i = 0; i < 3; ++i)
-                light.direction[i] = static_cast<float>(n[i]);
+                light.direction[i] = float(n[i]);
         }
     }
     setEmission(document, element, emission, light);

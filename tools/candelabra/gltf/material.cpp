@@ -31,7 +31,7 @@ public:
     int32_t find(int gltfTexture, bool srgb);
     glm::vec3 meanColor(int32_t texture) const
     {
-        return meanOfSrgb(scene_.textures[static_cast<size_t>(texture)]);
+        return meanOfSrgb(scene_.textures[size_t(texture)]);
     }
     // Adds a texture whose green is the roughness of a texture that has the glossiness, divided by
     // `factor`, in its alpha. Returns its index.
@@ -70,7 +70,7 @@ void applySampler(const tinygltf::Sampler& sampler, Texture& texture)
 
 int32_t GltfTextures::find(int gltfTexture, bool srgb)
 {
-    const auto index = static_cast<size_t>(gltfTexture);
+    const auto index = size_t(gltfTexture);
     const tinygltf::Texture& source = document_.model.textures[index];
     const auto* webp =
         GltfDocument::extension(document_.json["textures"][index], "EXT_texture_webp");
@@ -93,7 +93,7 @@ int32_t GltfTextures::add(int gltfImage, int gltfSampler, bool srgb)
     if (unreadImages_.contains(gltfImage))
         return -1;
     try {
-        scene_.textures.push_back(decode(static_cast<size_t>(gltfImage)));
+        scene_.textures.push_back(decode(size_t(gltfImage)));
     } catch (const SceneError& error) {
         // The scene is worth seeing without the texture.
         if (unreadImages_.empty())
@@ -104,8 +104,8 @@ int32_t GltfTextures::add(int gltfImage, int gltfSampler, bool srgb)
     Texture& texture = scene_.textures.back();
     texture.srgb = srgb;
     if (gltfSampler >= 0)
-        applySampler(document_.model.samplers[static_cast<size_t>(gltfSampler)], texture);
-    return static_cast<int32_t>(scene_.textures.size() - 1);
+        applySampler(document_.model.samplers[size_t(gltfSampler)], texture);
+    return int32_t(scene_.textures.size() - 1);
 }
 
 void GltfTextures::warnOfImages() const
@@ -122,10 +122,10 @@ void GltfTextures::warnOfImages() const
 
 int32_t GltfTextures::roughnessOfGlossiness(int32_t texture, float factor)
 {
-    Texture roughness = scene_.textures[static_cast<size_t>(texture)];
+    Texture roughness = scene_.textures[size_t(texture)];
     for (size_t i = 0; i < roughness.rgba.size(); i += 4) {
-        const float glossiness = factor * static_cast<float>(roughness.rgba[i + 3]);
-        roughness.rgba[i + 1] = static_cast<uint8_t>(255.5f - glossiness);
+        const float glossiness = factor * float(roughness.rgba[i + 3]);
+        roughness.rgba[i + 1] = uint8_t(255.5f - glossiness);
     }
     return addCopy(std::move(roughness));
 }
@@ -134,7 +134,7 @@ int32_t GltfTextures::withoutAlpha(int32_t texture)
 {
     if (const auto found = withoutAlpha_.find(texture); found != withoutAlpha_.end())
         return found->second;
-    Texture copy = scene_.textures[static_cast<size_t>(texture)];
+    Texture copy = scene_.textures[size_t(texture)];
     for (size_t i = 3; i < copy.rgba.size(); i += 4)
         copy.rgba[i] = 255;
     return withoutAlpha_[texture] = addCopy(std::move(copy));
@@ -146,7 +146,7 @@ int32_t GltfTextures::addCopy(Texture copy)
     if (texels_ > maxGltfTexels)
         document_.fail("", "has more than the 2 GiB of pixels that a scene's textures may have");
     scene_.textures.push_back(std::move(copy));
-    return static_cast<int32_t>(scene_.textures.size() - 1);
+    return int32_t(scene_.textures.size() - 1);
 }
 
 Texture GltfTextures::decode(size_t image)
@@ -168,7 +168,7 @@ Texture GltfTextures::decode(size_t image)
         bytes = document_.bufferView(json["bufferView"].get<int>(), element);
     }
     Texture texture = decodeGltfImage(document_, element, bytes, maxGltfTexels - texels_);
-    texels_ += static_cast<uint64_t>(texture.width) * texture.height;
+    texels_ += uint64_t(texture.width) * texture.height;
     return texture;
 }
 
@@ -176,7 +176,7 @@ Texture GltfTextures::decode(size_t image)
 // errors were refused when the file was opened.
 float unit(double x)
 {
-    return static_cast<float>(glm::clamp(x, 0.0, 1.0));
+    return float(glm::clamp(x, 0.0, 1.0));
 }
 
 glm::vec3 unitColor(const std::vector<double>& v)
@@ -256,7 +256,7 @@ TextureRef MaterialReader::textureRef(const nlohmann::json& owner, const char* s
                                                   " and is left out; sets 0 and 1 are supported");
         return TextureRef{};
     }
-    ref.uvSet = static_cast<uint32_t>(uvSet);
+    ref.uvSet = uint32_t(uvSet);
     ref.texture = textures_.find(info["index"].get<int>(), srgb);
     return ref;
 }
@@ -278,9 +278,9 @@ void MaterialReader::readSurface(const tinygltf::Material& source, const nlohman
             material.metalness = 0;
     }
     material.normalTexture = textureRef(json, "normalTexture", false);
-    material.normalScale = static_cast<float>(source.normalTexture.scale);
+    material.normalScale = float(source.normalTexture.scale);
     material.doubleSided = source.doubleSided;
-    material.alphaCutoff = static_cast<float>(source.alphaCutoff);
+    material.alphaCutoff = float(source.alphaCutoff);
     material.alphaMode = alphaModeOf(source);
 }
 
@@ -316,7 +316,7 @@ void MaterialReader::readDielectric(const nlohmann::json& json, Material& materi
         }
         f0 = n == 0 ? 1 : std::pow((n - 1) / (n + 1), 2);
     }
-    material.dielectricF0 = glm::vec3(static_cast<float>(f0));
+    material.dielectricF0 = glm::vec3(float(f0));
     const auto* specular = GltfDocument::extension(json, "KHR_materials_specular");
     if (!specular)
         return;
@@ -324,7 +324,7 @@ void MaterialReader::readDielectric(const nlohmann::json& json, Material& materi
     glm::dvec3 color{1};
     if (const auto found = specular->find("specularColorFactor"); found != specular->end())
         for (int i = 0; i < 3; ++i)
-            color[i] = (*found)[static_cast<size_t>(i)].get<double>();
+            color[i] = (*found)[size_t(i)].get<double>();
     material.dielectricF0 = glm::vec3(glm::min(f0 * color, glm::dvec3(1))) * factor;
     // A material has one F90: the factor applies to its dielectric part and 1 to its metallic part,
     // in the proportion of the metalness factor.
@@ -379,8 +379,8 @@ void MaterialReader::readSpecularGlossiness(const nlohmann::json& extension, Mat
     };
     glm::vec3 F0;
     for (size_t i = 0; i < 3; ++i) {
-        material.baseColor[static_cast<int>(i)] = factor("diffuseFactor", i);
-        F0[static_cast<int>(i)] = factor("specularFactor", i);
+        material.baseColor[int(i)] = factor("diffuseFactor", i);
+        F0[int(i)] = factor("specularFactor", i);
     }
     material.alpha = factor("diffuseFactor", 3);
     material.metalness = 0;
@@ -451,8 +451,8 @@ Material MaterialReader::read(size_t index)
 
 bool isGltfAlphaUsed(const GltfDocument& document, int material)
 {
-    return material >= 0 && alphaModeOf(document.model.materials[static_cast<size_t>(material)]) !=
-                                AlphaMode::Opaque;
+    return material >= 0 &&
+           alphaModeOf(document.model.materials[size_t(material)]) != AlphaMode::Opaque;
 }
 
 uint32_t readGltfMaterials(const GltfDocument& document, Scene& scene)
@@ -472,7 +472,7 @@ uint32_t readGltfMaterials(const GltfDocument& document, Scene& scene)
     material.name = "glTF default";
     material.metalness = 1;
     scene.materials.push_back(material);
-    return static_cast<uint32_t>(scene.materials.size() - 1);
+    return uint32_t(scene.materials.size() - 1);
 }
 
 } // namespace candelabra::app

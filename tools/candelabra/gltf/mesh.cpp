@@ -88,7 +88,7 @@ void makeFlatNormals(Mesh& mesh)
     }
     mesh.vertices = std::move(corners);
     for (size_t i = 0; i < mesh.indices.size(); ++i)
-        mesh.indices[i] = static_cast<uint32_t>(i);
+        mesh.indices[i] = uint32_t(i);
 }
 
 // Replaces normals of zero length by the area-weighted mean normal of the triangles around the
@@ -146,7 +146,7 @@ void makeTangents(Mesh& mesh, const TextureRef& ref)
     for (uint32_t i = 0; i < original; ++i) {
         twin[i] = i;
         if (sums[1][i].used && sums[0][i].used) {
-            twin[i] = static_cast<uint32_t>(mesh.vertices.size());
+            twin[i] = uint32_t(mesh.vertices.size());
             mesh.vertices.push_back(mesh.vertices[i]);
         }
         if (sums[1][i].used)
@@ -227,7 +227,7 @@ std::vector<uint32_t> PrimitiveReader::readIndices(size_t vertexCount) const
         takeBudget(0, vertexCount);
         corners.resize(vertexCount);
         for (size_t i = 0; i < vertexCount; ++i)
-            corners[i] = static_cast<uint32_t>(i);
+            corners[i] = uint32_t(i);
         return corners;
     }
     const GltfAccessor accessor(document_, primitive_.indices);
@@ -292,8 +292,8 @@ std::vector<uint32_t> PrimitiveReader::compact(std::vector<uint32_t>& indices) c
     std::vector<uint32_t> used;
     for (size_t i = 0; i < newNumber.size(); ++i)
         if (newNumber[i] != unused) {
-            newNumber[i] = static_cast<uint32_t>(used.size());
-            used.push_back(first + static_cast<uint32_t>(i));
+            newNumber[i] = uint32_t(used.size());
+            used.push_back(first + uint32_t(i));
         }
     for (uint32_t& i : indices)
         i = newNumber[i - first];
@@ -314,7 +314,7 @@ void PrimitiveReader::readPositions(const std::vector<uint32_t>& used, Mesh& mes
     for (size_t i = 0; i < used.size(); ++i) {
         mesh.vertices[i].position = posed_->position(used[i], glm::dvec3(accessor->read(used[i])));
         const glm::vec3 p = glm::abs(mesh.vertices[i].position);
-        constexpr auto limit = static_cast<float>(maxCoordinate);
+        constexpr auto limit = float(maxCoordinate);
         if (!(p.x <= limit && p.y <= limit && p.z <= limit))
             document_.fail(element_ + ".attributes.POSITION", accessor->element() + " element " +
                                                                   std::to_string(used[i]) +

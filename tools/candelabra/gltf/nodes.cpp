@@ -42,11 +42,10 @@ std::vector<int> findParents(const GltfDocument& document)
     std::vector<int> parents(nodes.size(), noParent);
     for (size_t i = 0; i < nodes.size(); ++i)
         for (const int child : nodes[i].children) {
-            int& parent = parents[static_cast<size_t>(child)];
+            int& parent = parents[size_t(child)];
             if (parent != noParent)
-                refuseSecondParent(document, static_cast<size_t>(child),
-                                   static_cast<size_t>(parent), i);
-            parent = static_cast<int>(i);
+                refuseSecondParent(document, size_t(child), size_t(parent), i);
+            parent = int(i);
         }
     return parents;
 }
@@ -58,11 +57,11 @@ void refuseCycles(const GltfDocument& document, const std::vector<int>& parents)
     constexpr size_t unseen = 0;
     std::vector<size_t> walk(parents.size(), unseen);
     for (size_t start = 0; start < parents.size(); ++start)
-        for (size_t i = start; walk[i] == unseen; i = static_cast<size_t>(parents[i])) {
+        for (size_t i = start; walk[i] == unseen; i = size_t(parents[i])) {
             walk[i] = start + 1;
             if (parents[i] == noParent)
                 break;
-            if (walk[static_cast<size_t>(parents[i])] == start + 1)
+            if (walk[size_t(parents[i])] == start + 1)
                 document.fail(nodeName(i), "is its own ancestor");
         }
 }
@@ -83,9 +82,9 @@ std::vector<bool> findNodesBelow(const GltfDocument& document, std::vector<int> 
     while (!nodes.empty()) {
         const int node = nodes.back();
         nodes.pop_back();
-        for (const int child : document.model.nodes[static_cast<size_t>(node)].children)
-            if (!below[static_cast<size_t>(child)]) {
-                below[static_cast<size_t>(child)] = true;
+        for (const int child : document.model.nodes[size_t(node)].children)
+            if (!below[size_t(child)]) {
+                below[size_t(child)] = true;
                 nodes.push_back(child);
             }
     }
@@ -101,7 +100,7 @@ std::vector<GltfPlacedNode> findRoots(const GltfDocument& document, const std::v
             document.warn("", "has no scene; all its nodes are used");
         return nodesWithoutParent(parents);
     }
-    const auto index = static_cast<size_t>(std::max(document.model.defaultScene, 0));
+    const auto index = size_t(std::max(document.model.defaultScene, 0));
     const std::string scene = gltfElement("scenes", index);
     if (const size_t scenes = document.model.scenes.size(); scenes > 1)
         document.warn("", "has " + std::to_string(scenes) + " scenes, of which only " + scene +
@@ -111,7 +110,7 @@ std::vector<GltfPlacedNode> findRoots(const GltfDocument& document, const std::v
     std::vector<GltfPlacedNode> roots;
     std::vector<glm::dmat4> worldFromNodes;
     for (const int root : listed) {
-        const auto i = static_cast<size_t>(root);
+        const auto i = size_t(root);
         glm::dmat4 worldFromParent(1);
         if (below[i]) {
             document.warn(nodeName(i), "is listed as a root of " + scene +
@@ -121,12 +120,12 @@ std::vector<GltfPlacedNode> findRoots(const GltfDocument& document, const std::v
         }
         if (parents[i] != noParent) {
             document.warn(nodeName(i), "is listed as a root of " + scene + " and is a child of " +
-                                           nodeName(static_cast<size_t>(parents[i])) +
+                                           nodeName(size_t(parents[i])) +
                                            ", which the scene lacks; it is drawn where that node "
                                            "puts it");
             if (worldFromNodes.empty())
                 worldFromNodes = gltfWorldTransforms(document);
-            worldFromParent = worldFromNodes[static_cast<size_t>(parents[i])];
+            worldFromParent = worldFromNodes[size_t(parents[i])];
         }
         roots.push_back({i, worldFromParent, {}});
     }
@@ -167,8 +166,8 @@ std::vector<GltfPlacedNode> placeFrom(const GltfDocument& document,
         placed.push_back(current);
         const std::vector<int>& children = document.model.nodes[current.node].children;
         for (auto child = children.rbegin(); child != children.rend(); ++child)
-            open.push_back({static_cast<size_t>(*child), current.worldFromNode, current.node,
-                            current.depth + 1});
+            open.push_back(
+                {size_t(*child), current.worldFromNode, current.node, current.depth + 1});
     }
     return placed;
 }

@@ -42,14 +42,13 @@ GltfPose GltfPoses::of(const GltfPlacedNode& placed) const
     const tinygltf::Node& node = document_.model.nodes[placed.node];
     GltfPose pose;
     if (node.skin >= 0 || !node.weights.empty())
-        pose.owner = static_cast<int64_t>(placed.node);
-    pose.weights = node.weights.empty()
-                       ? document_.model.meshes[static_cast<size_t>(node.mesh)].weights
-                       : node.weights;
+        pose.owner = int64_t(placed.node);
+    pose.weights =
+        node.weights.empty() ? document_.model.meshes[size_t(node.mesh)].weights : node.weights;
     pose.worldFromMesh = placed.worldFromNode;
     if (node.skin < 0)
         return pose;
-    const auto index = static_cast<size_t>(node.skin);
+    const auto index = size_t(node.skin);
     const tinygltf::Skin& skin = document_.model.skins[index];
     const std::string element = gltfElement("skins", index);
     if (skin.joints.empty())
@@ -63,12 +62,12 @@ GltfPose GltfPoses::of(const GltfPlacedNode& placed) const
                                std::to_string(skin.joints.size()) + " joints");
     }
     pose.skin = element;
-    const auto firstJoint = static_cast<size_t>(skin.joints[0]);
+    const auto firstJoint = size_t(skin.joints[0]);
     pose.worldFromMesh = glm::translate(glm::dmat4(1), glm::dvec3(worldFromNodes_[firstJoint][3]));
     const glm::dmat4 meshFromWorld = glm::inverse(pose.worldFromMesh);
     pose.meshFromRest = meshFromWorld * placed.worldFromNode;
     for (size_t j = 0; j < skin.joints.size(); ++j) {
-        const glm::dmat4& worldFromJoint = worldFromNodes_[static_cast<size_t>(skin.joints[j])];
+        const glm::dmat4& worldFromJoint = worldFromNodes_[size_t(skin.joints[j])];
         const glm::dmat4 fromBind = jointFromBind ? jointFromBind->readMatrix(j) : glm::dmat4(1);
         requireAffine(document_, element + "." + gltfElement("inverseBindMatrices", j), fromBind);
         pose.meshFromBind.push_back(meshFromWorld * worldFromJoint * fromBind);
@@ -178,7 +177,7 @@ glm::dmat4 GltfPosedVertices::meshFromVertex(size_t i) const
         for (int c = 0; c < 4; ++c) {
             if (weights[c] == 0)
                 continue;
-            const auto joint = static_cast<size_t>(joints[c]);
+            const auto joint = size_t(joints[c]);
             const size_t count = pose_.meshFromBind.size();
             if (joint >= count)
                 document_.fail(element_, "vertex " + std::to_string(i) + " follows joint " +

@@ -55,7 +55,7 @@ std::string lowerExtension(const std::string& path)
 {
     std::string extension = std::filesystem::path(path).extension().string();
     std::ranges::transform(extension, extension.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+                           [](unsigned char c) { return char(std::tolower(c)); });
     return extension;
 }
 
@@ -78,9 +78,8 @@ void savePng(const std::string& path, uint32_t width, uint32_t height, std::span
                             std::to_string(height) + " pixels in " + std::to_string(rgb.size()) +
                             " bytes");
     std::vector<uint8_t> bytes;
-    if (!stbi_write_png_to_func(appendBytes, &bytes, static_cast<int>(width),
-                                static_cast<int>(height), 3, rgb.data(),
-                                static_cast<int>(width) * 3))
+    if (!stbi_write_png_to_func(appendBytes, &bytes, int(width), int(height), 3, rgb.data(),
+                                int(width) * 3))
         failWrite(path, "the PNG encoder failed");
     writeFileAtomically(path, bytes);
 }
@@ -100,9 +99,8 @@ void saveHdr(const std::string& path, const Image& image)
     }
     // stb_image_write itself expands grey images to RGB.
     std::vector<uint8_t> bytes;
-    if (!stbi_write_hdr_to_func(appendBytes, &bytes, static_cast<int>(image.width),
-                                static_cast<int>(image.height), static_cast<int>(image.channels),
-                                image.pixels.data()))
+    if (!stbi_write_hdr_to_func(appendBytes, &bytes, int(image.width), int(image.height),
+                                int(image.channels), image.pixels.data()))
         failWrite(path, "the HDR encoder failed");
     writeFileAtomically(path, bytes);
 }

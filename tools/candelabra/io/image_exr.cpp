@@ -68,7 +68,7 @@ void keepError(exr_const_context_t context, exr_result_t, const char* message)
 
 int64_t sizeOfInput(exr_const_context_t, void* stream)
 {
-    return static_cast<int64_t>(static_cast<ExrStream*>(stream)->input.size());
+    return int64_t(static_cast<ExrStream*>(stream)->input.size());
 }
 
 // Returns how many of the bytes the input has.
@@ -80,7 +80,7 @@ int64_t readInput(exr_const_context_t, void* stream, void* buffer, uint64_t size
     const auto bytes = rest.first(std::min<uint64_t>(size, rest.size()));
     if (!bytes.empty())
         std::memcpy(buffer, bytes.data(), bytes.size());
-    return static_cast<int64_t>(bytes.size());
+    return int64_t(bytes.size());
 }
 
 int64_t writeOutput(exr_const_context_t, void* stream, const void* buffer, uint64_t size,
@@ -94,7 +94,7 @@ int64_t writeOutput(exr_const_context_t, void* stream, const void* buffer, uint6
     }
     if (size > 0)
         std::memcpy(&output[offset], buffer, size);
-    return static_cast<int64_t>(size);
+    return int64_t(size);
 }
 
 exr_context_initializer_t settings(ExrStream& stream)
@@ -148,9 +148,8 @@ void ExrWriter::writeHeader(const Image& image)
     check(exr_start_write(&stream_.context, path_.c_str(), EXR_WRITE_FILE_DIRECTLY, &with));
     int part = 0;
     check(exr_add_part(stream_.context, nullptr, EXR_STORAGE_SCANLINE, &part));
-    check(exr_initialize_required_attr_simple(
-        stream_.context, part, static_cast<int32_t>(image.width),
-        static_cast<int32_t>(image.height), EXR_COMPRESSION_ZIP));
+    check(exr_initialize_required_attr_simple(stream_.context, part, int32_t(image.width),
+                                              int32_t(image.height), EXR_COMPRESSION_ZIP));
     for (const char channel : std::string_view(image.channels == 3 ? "BGR" : "Y"))
         check(exr_add_channel(stream_.context, part, std::string(1, channel).c_str(),
                               EXR_PIXEL_FLOAT, EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1));
@@ -163,9 +162,9 @@ std::vector<uint8_t> ExrWriter::encode(const Image& image)
     int32_t rows = 0; // in a block; the last may have fewer
     check(exr_get_scanlines_per_chunk(stream_.context, 0, &rows));
     const size_t pixelFloats = image.channels, rowFloats = pixelFloats * image.width;
-    for (uint32_t y = 0; y < image.height; y += static_cast<uint32_t>(rows)) {
+    for (uint32_t y = 0; y < image.height; y += uint32_t(rows)) {
         exr_chunk_info_t block = {};
-        check(exr_write_scanline_chunk_info(stream_.context, 0, static_cast<int>(y), &block));
+        check(exr_write_scanline_chunk_info(stream_.context, 0, int(y), &block));
         check(y == 0 ? exr_encoding_initialize(stream_.context, 0, &block, &encoder_)
                      : exr_encoding_update(stream_.context, 0, &block, &encoder_));
         for (int c = 0; c < encoder_.channel_count; ++c) {
@@ -173,8 +172,8 @@ std::vector<uint8_t> ExrWriter::encode(const Image& image)
             const int place = image.channels == 3 ? placeInColor(channel.channel_name) : 0;
             channel.encode_from_ptr =
                 reinterpret_cast<const uint8_t*>(&image.pixels[y * rowFloats + size_t(place)]);
-            channel.user_pixel_stride = static_cast<int32_t>(pixelFloats * sizeof(float));
-            channel.user_line_stride = static_cast<int32_t>(rowFloats * sizeof(float));
+            channel.user_pixel_stride = int32_t(pixelFloats * sizeof(float));
+            channel.user_line_stride = int32_t(rowFloats * sizeof(float));
         }
         check(exr_encoding_choose_default_routines(stream_.context, 0, &encoder_));
         check(exr_encoding_run(stream_.context, 0, &encoder_));
@@ -231,8 +230,8 @@ void ExrReader::readSize()
         failRead(path_, "its data window has " + std::to_string(width) + " x " +
                             std::to_string(height) + " pixels; 1 to " +
                             std::to_string(maxImageSize) + " a side can be read");
-    image_.width = static_cast<uint32_t>(width);
-    image_.height = static_cast<uint32_t>(height);
+    image_.width = uint32_t(width);
+    image_.height = uint32_t(height);
 }
 
 void ExrReader::readChannels()
@@ -306,8 +305,8 @@ void ExrReader::readBlock(const exr_chunk_info_t& block)
         channel.decode_to_ptr = reinterpret_cast<uint8_t*>(&image_.pixels[first + size_t(place)]);
         channel.user_data_type = EXR_PIXEL_FLOAT; // halves are widened
         channel.user_bytes_per_element = sizeof(float);
-        channel.user_pixel_stride = static_cast<int32_t>(image_.channels * sizeof(float));
-        channel.user_line_stride = static_cast<int32_t>(rowFloats * sizeof(float));
+        channel.user_pixel_stride = int32_t(image_.channels * sizeof(float));
+        channel.user_line_stride = int32_t(rowFloats * sizeof(float));
     }
     check(exr_decoding_choose_default_routines(stream_.context, 0, &decoder_));
     check(exr_decoding_run(stream_.context, 0, &decoder_));

@@ -91,7 +91,7 @@ void writeFileAtomically(const std::string& path, std::span<const uint8_t> bytes
             continue;
         if (n < 0)
             failWrite(path, std::strerror(errno));
-        done += static_cast<size_t>(n);
+        done += size_t(n);
     }
     if (!file.close() || std::rename(temporary.c_str(), path.c_str()) != 0)
         failWrite(path, std::strerror(errno));
@@ -121,7 +121,7 @@ std::vector<uint8_t> readImageFile(const std::string& path)
         failAndClose("is not a regular file");
     if (info.st_size > UINT32_MAX)
         failAndClose("is larger than 4 GiB");
-    std::vector<uint8_t> bytes(static_cast<size_t>(info.st_size));
+    std::vector<uint8_t> bytes(size_t(info.st_size));
     size_t done = 0;
     while (done < bytes.size()) {
         const ssize_t n = read(fd, bytes.data() + done, bytes.size() - done);
@@ -129,7 +129,7 @@ std::vector<uint8_t> readImageFile(const std::string& path)
             continue;
         if (n <= 0)
             failAndClose(n < 0 ? std::strerror(errno) : "became shorter while it was read");
-        done += static_cast<size_t>(n);
+        done += size_t(n);
     }
     close(fd);
     if (std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size())

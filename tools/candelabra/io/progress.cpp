@@ -57,7 +57,7 @@ void Progress::draw()
     if (!terminal_)
         return log();
     setProgressShown(true);
-    const int filled = static_cast<int>(barWidth * done_ / steps_);
+    const int filled = int(barWidth * done_ / steps_);
     const std::string line = fmt::format(
         "\r[{}{}] {:3.0f}% {:4.0f} s  {:.32}\x1b[K", std::string(filled, '#'),
         std::string(barWidth - filled, ' '), 100 * done_ / steps_, secondsSince(start_), what_);

@@ -13,7 +13,7 @@ std::string comparableForm(const std::string& word)
 {
     std::string out = word.substr(std::min(word.find_first_not_of('-'), word.size()));
     for (char& c : out)
-        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        c = char(std::tolower(static_cast<unsigned char>(c)));
     return out;
 }
 

@@ -69,14 +69,14 @@ float readPerceptualRoughness(const JsonValue& json)
     if (!alphaJson && !roughnessJson)
         json.fail("\"alpha\" or \"perceptual_roughness\" is missing");
     if (!alphaJson)
-        return static_cast<float>(roughnessJson->number(NumberRange::positive(1)));
+        return float(roughnessJson->number(NumberRange::positive(1)));
     const double fromAlpha = std::sqrt(alphaJson->number(NumberRange::positive(1)));
     if (roughnessJson) {
         const double roughness = roughnessJson->number(NumberRange::positive(1));
         if (!(std::abs(roughness - fromAlpha) <= 1e-6))
             roughnessJson->fail("must be the square root of alpha");
     }
-    return static_cast<float>(fromAlpha);
+    return float(fromAlpha);
 }
 
 // The F0 of the file is used as it is, while a Material mixes its F0 with its base colour according
@@ -103,7 +103,7 @@ Material readMaterial(const JsonValue& json)
         // Lagarde and de Rousiers 2014, eq. 25. A common dielectric has a reflectance of 0.5, which
         // is an F0 of 0.04.
         const double r = reflectance->number(unitInterval);
-        material.dielectricF0 = glm::vec3(static_cast<float>(0.16 * r * r));
+        material.dielectricF0 = glm::vec3(float(0.16 * r * r));
     }
     const auto diffuse = json.find("diffuse");
     const auto specular = json.find("specular");
@@ -147,7 +147,7 @@ void readObjects(const JsonValue& root, Scene& scene)
     const auto add = [&](const JsonValue& json) {
         AnalyticObject object = readObject(json);
         if (const auto own = json.find("material")) {
-            object.material = static_cast<uint32_t>(scene.materials.size());
+            object.material = uint32_t(scene.materials.size());
             scene.materials.push_back(readMaterial(*own));
         } else if (!common) {
             json.fail("has no \"material\", and neither has the scene");
@@ -223,8 +223,7 @@ glm::uvec2 readResolution(const JsonValue& json)
     json.requireArray();
     if (json.size() != 2)
         json.fail("must be [width, height]");
-    return {static_cast<uint32_t>(json.item(0).integer(1, 16384)),
-            static_cast<uint32_t>(json.item(1).integer(1, 16384))};
+    return {uint32_t(json.item(0).integer(1, 16384)), uint32_t(json.item(1).integer(1, 16384))};
 }
 
 } // namespace

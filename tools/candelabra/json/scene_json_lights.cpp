@@ -55,7 +55,7 @@ void refuseOtherKeys(const JsonValue& json, uint32_t type)
 void setVector(float (&out)[3], const glm::dvec3& v)
 {
     for (int i = 0; i < 3; ++i)
-        out[i] = static_cast<float>(v[i]);
+        out[i] = float(v[i]);
 }
 
 glm::dvec3 readAxis(const JsonValue& json)
@@ -73,7 +73,7 @@ void readUnit(const JsonValue& json, float (&out)[3])
 
 float readRadius(const JsonValue& json, double max)
 {
-    const float radius = static_cast<float>(json.number(NumberRange::positive(max)));
+    const float radius = float(json.number(NumberRange::positive(max)));
     if (!(radius > 0))
         json.fail("is too small for single precision");
     return radius;
@@ -136,7 +136,7 @@ void readKey(const JsonValue& value, LightKeyMeaning meaning, CndLight& light, g
         return;
     }
     case LightKeyMeaning::InnerCone:
-        light.innerConeAngle = static_cast<float>(value.number({0, 90}) * pi / 180);
+        light.innerConeAngle = float(value.number({0, 90}) * pi / 180);
         return;
     case LightKeyMeaning::OuterCone: {
         const double outer = value.number(NumberRange::positive(90));
@@ -184,7 +184,7 @@ double emissionPerUnit(const std::string& key, CndLight light)
 {
     if (key == "radiance" || key == "luminance")
         return 1;
-    const double radius = static_cast<double>(light.radius);
+    const double radius = double(light.radius);
     if (key == "intensity") // in the far field of a sphere I = pi R^2 L
         return cndIsPunctual(light.type) ? 1 : 1 / (pi * radius * radius);
     if (key == "illuminance") // below a distant sphere E = pi s^2 L
@@ -194,7 +194,7 @@ double emissionPerUnit(const std::string& key, CndLight light)
         emission = 1;
     float power[3] = {};
     cndLuminousPowerOfLight(&light, power, nullptr);
-    return 1 / static_cast<double>(power[0]);
+    return 1 / double(power[0]);
 }
 
 void readEmission(const JsonValue& json, CndLight& light)

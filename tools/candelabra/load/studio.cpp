@@ -127,9 +127,9 @@ double Glow::of(const Material& material)
 {
     glm::vec3 emission = material.emission;
     if (const int32_t texture = material.emissiveTexture.texture; texture >= 0) {
-        std::optional<glm::vec3>& mean = means_[static_cast<size_t>(texture)];
+        std::optional<glm::vec3>& mean = means_[size_t(texture)];
         if (!mean)
-            mean = meanOfSrgb(scene_.textures[static_cast<size_t>(texture)]);
+            mean = meanOfSrgb(scene_.textures[size_t(texture)]);
         emission *= *mean;
     }
     const float rgb[3] = {emission.r, emission.g, emission.b};

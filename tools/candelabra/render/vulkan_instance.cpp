@@ -82,7 +82,7 @@ void addSurfaceExtensions(std::vector<const char*>& extensions)
 std::string lower(std::string text)
 {
     std::ranges::transform(text, text.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+                           [](unsigned char c) { return char(std::tolower(c)); });
     return text;
 }
 

@@ -126,12 +126,12 @@ int64_t JsonValue::integer(int64_t min, int64_t max) const
         const double x = value_->get<double>();
         if (x != std::floor(x) || x < double(min) || x > double(max))
             failType(wanted);
-        return static_cast<int64_t>(x);
+        return int64_t(x);
     }
     if (!value_->is_number_integer())
         failType(wanted);
     // Unsigned numbers beyond int64 would wrap in get<int64_t>().
-    if (value_->is_number_unsigned() && value_->get<uint64_t>() > static_cast<uint64_t>(max))
+    if (value_->is_number_unsigned() && value_->get<uint64_t>() > uint64_t(max))
         failType(wanted);
     const int64_t x = value_->get<int64_t>();
     if (x < min || x > max)
@@ -159,7 +159,7 @@ glm::dvec3 JsonValue::vector3(const NumberRange& range) const
         failType("an array of 3 numbers");
     glm::dvec3 v;
     for (int i = 0; i < 3; ++i)
-        v[i] = item(static_cast<size_t>(i)).number(range);
+        v[i] = item(size_t(i)).number(range);
     return v;
 }
 

@@ -16,8 +16,8 @@ namespace candelabra::app
 
 // The range from `min` to `max`. Both ends belong to it, but `min` does not if minExcluded is true.
 struct NumberRange {
-    double min = -static_cast<double>(std::numeric_limits<float>::max());
-    double max = static_cast<double>(std::numeric_limits<float>::max());
+    double min = -double(std::numeric_limits<float>::max());
+    double max = double(std::numeric_limits<float>::max());
     bool minExcluded = false;
 
     static constexpr NumberRange positive(double max = std::numeric_limits<float>::max())

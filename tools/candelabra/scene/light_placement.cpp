@@ -24,8 +24,7 @@ void placeLights(Scene& scene, const std::vector<glm::dvec3>& worldPositions)
     scene.lightOrigin = isNear ? glm::dvec3(0) : 0.5 * (low + high);
     for (size_t i = 0; i < worldPositions.size(); ++i)
         for (int k = 0; k < 3 && !cndIsDistant(scene.lights[i].type); ++k)
-            scene.lights[i].position[k] =
-                static_cast<float>(worldPositions[i][k] - scene.lightOrigin[k]);
+            scene.lights[i].position[k] = float(worldPositions[i][k] - scene.lightOrigin[k]);
 }
 
 } // namespace candelabra::app

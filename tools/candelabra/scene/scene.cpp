@@ -36,14 +36,14 @@ glm::vec3 meanOfSrgb(const Texture& texture)
 {
     std::array<double, 256> linear; // IEC 61966-2-1
     for (size_t i = 0; i < linear.size(); ++i) {
-        const double x = static_cast<double>(i) / 255;
+        const double x = double(i) / 255;
         linear[i] = x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
     }
     glm::dvec3 sum{0};
     for (size_t i = 0; i < texture.rgba.size(); i += 4)
         for (size_t c = 0; c < 3; ++c)
-            sum[static_cast<int>(c)] += linear[texture.rgba[i + c]];
-    return glm::vec3(sum / (static_cast<double>(texture.rgba.size()) / 4));
+            sum[int(c)] += linear[texture.rgba[i + c]];
+    return glm::vec3(sum / (double(texture.rgba.size()) / 4));
 }
 
 bool hasDiffuseOnlySurfaces(const Scene& scene, const std::vector<Material>& materials)
@@ -90,9 +90,9 @@ void move(CndLight& light, const LightMotion& motion, double time)
         return; // it has no position
     // The angle is a double until its sine and cosine are taken, so that the motion stays smooth
     // after hours.
-    const double angle = motion.phase + static_cast<double>(motion.angularSpeed) * time;
-    const float c = static_cast<float>(std::cos(angle));
-    const float s = static_cast<float>(std::sin(angle));
+    const double angle = motion.phase + double(motion.angularSpeed) * time;
+    const float c = float(std::cos(angle));
+    const float s = float(std::sin(angle));
     for (int axis = 0; axis < 3; ++axis)
         light.position[axis] += motion.axisU[axis] * c + motion.axisV[axis] * s;
 }

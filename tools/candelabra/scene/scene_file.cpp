@@ -143,7 +143,7 @@ bool hasExtension(const std::string& path, std::string_view extension)
 {
     std::string own = std::filesystem::path(path).extension().string();
     for (char& c : own)
-        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        c = char(std::tolower(static_cast<unsigned char>(c)));
     return own == extension;
 }
 
@@ -171,7 +171,7 @@ std::vector<uint8_t> readSceneFile(const std::string& path, const std::string& f
     if (info.st_size > std::numeric_limits<uint32_t>::max())
         failScene(file, element, "is larger than 4 GiB");
 
-    std::vector<uint8_t> bytes(static_cast<size_t>(info.st_size));
+    std::vector<uint8_t> bytes(size_t(info.st_size));
     size_t done = 0;
     while (done < bytes.size()) {
         const ssize_t n = read(input.get(), bytes.data() + done, bytes.size() - done);
@@ -181,7 +181,7 @@ std::vector<uint8_t> readSceneFile(const std::string& path, const std::string& f
             failScene(file, element, std::string("cannot be read: ") + std::strerror(errno));
         if (n == 0)
             failScene(file, element, "became shorter while it was read");
-        done += static_cast<size_t>(n);
+        done += size_t(n);
     }
     return bytes;
 }

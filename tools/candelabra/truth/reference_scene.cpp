@@ -173,7 +173,7 @@ uint64_t referenceHash(const reference::Scene& scene, const reference::TruthOpti
     hash.add(camera.orthographicHeight);
     hash.add(camera.aspect);
     hash.add(scene.lightsVisible);
-    hash.add(static_cast<int>(scene.lobes));
+    hash.add(int(scene.lobes));
     hash.add(scene.energyCompensation);
     hash.add(scene.materials.size());
     for (const reference::Material& material : scene.materials) {
@@ -185,7 +185,7 @@ uint64_t referenceHash(const reference::Scene& scene, const reference::TruthOpti
     }
     hash.add(scene.objects.size());
     for (const reference::Object& object : scene.objects) {
-        hash.add(static_cast<int>(object.type));
+        hash.add(int(object.type));
         add(hash, object.point);
         add(hash, object.normal);
         hash.add(object.radius);
