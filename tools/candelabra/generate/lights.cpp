@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "candelabra/glm.hpp"
 #include "generate/light_overlaps.h"
 #include "io/table.h"
 #include "scene/scene_error.h"
@@ -63,7 +64,6 @@ CndLight makeLight(const LightSite& site, const LightReach& reach, double scale,
 {
     CndLight light{};
     light.type = CND_LIGHT_SPHERE;
-    const glm::vec3 position(site.position - origin);
     light.influenceRadius = float(scale * reach.reach);
     light.radius = float(std::min(reach.radius, reach.radiusShare * double(light.influenceRadius)));
     // I = E d^2, Phi = 4 pi I.
@@ -71,10 +71,8 @@ CndLight makeLight(const LightSite& site, const LightReach& reach, double scale,
         4 * pi_v<float> * site.edgeIlluminance * light.influenceRadius * light.influenceRadius;
     const float luminance =
         site.luminance.value_or(cndSphereLuminanceFromPower(luminousPower, light.radius));
-    for (int i = 0; i < 3; ++i) {
-        light.position[i] = position[i];
-        light.emission[i] = luminance * site.colour[i];
-    }
+    assign(light.position, glm::vec3(site.position - origin));
+    assign(light.emission, luminance * site.colour);
     return light;
 }
 

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "candelabra/glm.hpp"
 #include "generate/ray_caster.h"
 #include "scene/light_layers.h"
 
@@ -66,10 +67,10 @@ std::optional<Shaft> shaftTo(const Scene& scene, const CndLight& light, const Ra
 {
     Shaft out{.start = point.position, .endRadius = cndEmitterBoundingRadius(&light)};
     if (cndIsDistant(light.type)) {
-        out.axis = -size * glm::dvec3(light.direction[0], light.direction[1], light.direction[2]);
+        out.axis = -size * glm::dvec3(toGlm(light.direction));
         out.endRadius *= size;
     } else {
-        const glm::dvec3 position(light.position[0], light.position[1], light.position[2]);
+        const glm::dvec3 position(toGlm(light.position));
         out.axis = scene.lightOrigin + position - point.position;
         if (!uncut && glm::length(out.axis) >= double(light.influenceRadius))
             return std::nullopt;

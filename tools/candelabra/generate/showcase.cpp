@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "candelabra/glm.hpp"
 #include "generate/generators.h"
 #include "generate/lights.h"
 #include "generate/scene_builder.h"
@@ -72,32 +73,26 @@ void addBalls(SceneBuilder& b, size_t stations)
     }
 }
 
-void set(float (&out)[3], const glm::vec3& v)
-{
-    for (int i = 0; i < 3; ++i)
-        out[i] = v[i];
-}
-
 // Makes a lamp over the station; flat ones face down and towards the camera.
 CndLight makeLamp(uint32_t type, double x, const glm::vec3& colour)
 {
     const uint32_t fields = cndLightFields(type);
     CndLight light = lightTypeInfo(type).lamp;
     light.type = type;
-    set(light.position, {float(x), 1.5f, -0.15f});
+    assign(light.position, glm::vec3(x, 1.5f, -0.15f));
     light.influenceRadius = 7;
     const glm::vec3 down = glm::normalize(glm::vec3(0, -1, 0.7f));
     const glm::vec3 up = glm::cross(glm::vec3(1, 0, 0), down); // in the plane of a flat lamp
     if (fields & CND_LIGHT_FIELD_DIRECTION_BIT)
-        set(light.direction, down);
+        assign(light.direction, down);
     if (fields & CND_LIGHT_FIELD_AXIS_V_BIT) {
         const bool facesDown = glm::dot(glm::cross(glm::vec3(1, 0, 0), up), down) >= 0;
-        set(light.axisV, (facesDown ? light.axisV[0] : -light.axisV[0]) * up);
+        assign(light.axisV, (facesDown ? light.axisV[0] : -light.axisV[0]) * up);
     }
     const float peak = !cndIsPunctual(type)                     ? lampPeak
                        : fields & CND_LIGHT_FIELD_DIRECTION_BIT ? spotPeak
                                                                 : pointPeak;
-    set(light.emission, luminanceOfPeak(colour, peak) * colour);
+    assign(light.emission, luminanceOfPeak(colour, peak) * colour);
     return light;
 }
 
@@ -105,8 +100,7 @@ CndLight makeLamp(uint32_t type, double x, const glm::vec3& colour)
 // tube, at the back of what has a direction, else on top.
 void addHolders(SceneBuilder& b, const CndLight& light, uint32_t brass)
 {
-    const auto vec = [](const float(&v)[3]) { return glm::dvec3(v[0], v[1], v[2]); };
-    const glm::dvec3 centre = vec(light.position), u = vec(light.axisU), v = vec(light.axisV);
+    const glm::dvec3 centre(toGlm(light.position)), u(toGlm(light.axisU)), v(toGlm(light.axisV));
     const double radius = light.radius;
     const uint32_t fields = cndLightFields(light.type);
     if (fields & CND_LIGHT_FIELD_POLYGON_BIT) {
@@ -122,7 +116,7 @@ void addHolders(SceneBuilder& b, const CndLight& light, uint32_t brass)
             addBall(b, centre + side * u, 1.3 * radius, brass);
     } else if (fields & CND_LIGHT_FIELD_DIRECTION_BIT) {
         const double gap = cndIsPunctual(light.type) ? 0.11 : 0; // a spot stays outside
-        addBall(b, centre - gap * vec(light.direction), 0.1, brass);
+        addBall(b, centre - gap * glm::dvec3(toGlm(light.direction)), 0.1, brass);
     } else {
         addBall(b, centre + glm::dvec3(0, 0.85 * radius + 0.04, 0), std::max(0.5 * radius, 0.06),
                 brass);
@@ -135,15 +129,15 @@ void addDistantLights(Scene& scene)
 {
     CndLight sky{};
     sky.type = CND_LIGHT_DIRECTIONAL;
-    set(sky.direction, glm::normalize(glm::vec3(0.5f, -1, -0.6f)));
-    set(sky.emission, 4.0f * hueColour(0.6f, 0.4f)); // lx
+    assign(sky.direction, glm::normalize(glm::vec3(0.5f, -1, -0.6f)));
+    assign(sky.emission, 4.0f * hueColour(0.6f, 0.4f)); // lx
     scene.lights.push_back(sky);
     CndLight sun{};
     sun.type = CND_LIGHT_DISTANT_SPHERE;
     sun.radius = 0.035f; // the sine of its angular radius
-    set(sun.direction, glm::normalize(glm::vec3(-0.16f, -0.047f, 1)));
+    assign(sun.direction, glm::normalize(glm::vec3(-0.16f, -0.047f, 1)));
     const glm::vec3 colour = hueColour(0.05f, 0.93f);
-    set(sun.emission, luminanceOfPeak(colour, 4) * colour); // cd/m^2
+    assign(sun.emission, luminanceOfPeak(colour, 4) * colour); // cd/m^2
     scene.lights.push_back(sun);
 }
 

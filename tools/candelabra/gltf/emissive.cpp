@@ -6,6 +6,8 @@
 #include <limits>
 #include <optional>
 
+#include "candelabra/glm.hpp"
+
 namespace candelabra::app
 {
 
@@ -91,11 +93,9 @@ CndLight lightOf(const Rectangle& r, const Material& material)
 {
     CndLight light = {};
     light.type = CND_LIGHT_RECTANGLE;
-    for (int i = 0; i < 3; ++i) {
-        light.axisU[i] = float(r.halfU[i]);
-        light.axisV[i] = float(r.halfV[i]);
-        light.emission[i] = material.emission[i];
-    }
+    assign(light.axisU, glm::vec3(r.halfU));
+    assign(light.axisV, glm::vec3(r.halfV));
+    assign(light.emission, material.emission);
     light.twoSided = material.doubleSided;
     light.influenceRadius = std::numeric_limits<float>::infinity();
     return light;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "candelabra/glm.hpp"
 #include "scene/cone.h"
 #include "scene/json_value.h"
 #include "scene/scene_error.h"
@@ -204,9 +205,8 @@ void setSides(const JsonValue& source, const glm::dmat4& worldFromNode, CndLight
     const auto side = [&](const char* key, const glm::dvec4& axis, float(&out)[3]) {
         const auto json = source.find(key);
         const double length = json ? json->number(NumberRange::positive(maxCoordinate)) : 1;
-        for (int i = 0; i < 3; ++i)
-            out[i] = float(0.5 * length * axis[i]);
-        if (!(glm::length(glm::vec3(out[0], out[1], out[2])) > 1e-15f))
+        assign(out, glm::vec3(0.5 * length * axis));
+        if (!(glm::length(toGlm(out)) > 1e-15f))
             source.fail(std::string(key) + " is too small for single precision");
     };
     const glm::dvec3 x(worldFromNode[0]), y(worldFromNode[1]);
@@ -259,11 +259,8 @@ void addArea(const GltfDocument& document, size_t index, const glm::dmat4& world
         const auto radius = source.find("radius");
         light.type = disk ? CND_LIGHT_DISC : CND_LIGHT_SPHERE;
         setRadius(document, element, (radius ? radius->number() : 1) * scale, light);
-        if (disk) {
-            const glm::dvec3 n = facing(worldFromNode);
-            for (int i = 0; i < 3; ++i)
-                light.direction[i] = float(n[i]);
-        }
+        if (disk)
+            assign(light.direction, glm::vec3(facing(worldFromNode)));
     }
     setEmission(document, element, emission, light);
     const auto range = source.find("range");

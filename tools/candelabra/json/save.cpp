@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "candelabra/glm.hpp"
 #include "generate/generators.h"
 #include "scene/light_types.h"
 #include "scene/scene_error.h"
@@ -24,11 +25,6 @@ constexpr double degreesPerRadian = 180 / std::numbers::pi;
 Json toJson(const glm::dvec3& v)
 {
     return {v.x, v.y, v.z};
-}
-
-glm::dvec3 toVec3(const float (&v)[3])
-{
-    return {v[0], v[1], v[2]};
 }
 
 // Adds the numbers of the layers as the loader reads them. Nothing is added for a mask of 0.
@@ -89,12 +85,12 @@ Json objectsJson(const Scene& scene)
 
 Json keyJson(const CndLight& light, const glm::dvec3& centre, LightKeyMeaning meaning)
 {
-    const glm::dvec3 u = toVec3(light.axisU);
+    const glm::dvec3 u(toGlm(light.axisU)), v(toGlm(light.axisV));
     switch (meaning) {
     case LightKeyMeaning::Position:
         return toJson(centre);
     case LightKeyMeaning::Direction:
-        return toJson(toVec3(light.direction));
+        return toJson(toGlm(light.direction));
     case LightKeyMeaning::Radius:
     case LightKeyMeaning::Sine:
         return light.radius;
@@ -105,7 +101,7 @@ Json keyJson(const CndLight& light, const glm::dvec3& centre, LightKeyMeaning me
     case LightKeyMeaning::AxisU:
         return toJson(u);
     case LightKeyMeaning::AxisV:
-        return toJson(toVec3(light.axisV));
+        return toJson(v);
     case LightKeyMeaning::InnerCone:
         return double(light.innerConeAngle) * degreesPerRadian;
     case LightKeyMeaning::OuterCone:
@@ -116,8 +112,7 @@ Json keyJson(const CndLight& light, const glm::dvec3& centre, LightKeyMeaning me
         Json corners = Json::array();
         for (uint32_t i = 0; i < light.polygon->cornerCount; ++i) {
             const float(&corner)[2] = light.polygon->corners[i];
-            corners.push_back(
-                toJson(centre + double(corner[0]) * u + double(corner[1]) * toVec3(light.axisV)));
+            corners.push_back(toJson(centre + double(corner[0]) * u + double(corner[1]) * v));
         }
         return corners;
     }
@@ -130,8 +125,8 @@ Json lightJson(const CndLight& light, const glm::dvec3& origin)
     const LightTypeInfo& type = lightTypeInfo(light.type);
     Json out{{"type", type.name}};
     for (const LightKey& key : type.keys)
-        out[key.name] = keyJson(light, origin + toVec3(light.position), key.meaning);
-    out[type.emission.front()] = toJson(toVec3(light.emission));
+        out[key.name] = keyJson(light, origin + glm::dvec3(toGlm(light.position)), key.meaning);
+    out[type.emission.front()] = toJson(toGlm(light.emission));
     if (!cndIsDistant(light.type) && std::isfinite(light.influenceRadius))
         out["influence_radius"] = light.influenceRadius;
     addLayers(out, light.layers);

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "candelabra/glm.hpp"
 #include "scene/cone.h"
 #include "scene/light_placement.h"
 #include "scene/light_types.h"
@@ -52,12 +53,6 @@ void refuseOtherKeys(const JsonValue& json, uint32_t type)
     json.refuseOtherKeys(known);
 }
 
-void setVector(float (&out)[3], const glm::dvec3& v)
-{
-    for (int i = 0; i < 3; ++i)
-        out[i] = float(v[i]);
-}
-
 glm::dvec3 readAxis(const JsonValue& json)
 {
     const glm::dvec3 v = json.vector3(coordinate);
@@ -68,7 +63,7 @@ glm::dvec3 readAxis(const JsonValue& json)
 
 void readUnit(const JsonValue& json, float (&out)[3])
 {
-    setVector(out, glm::normalize(readAxis(json)));
+    assign(out, glm::vec3(glm::normalize(readAxis(json))));
 }
 
 float readRadius(const JsonValue& json, double max)
@@ -89,12 +84,12 @@ void readCorners(const JsonValue& value, CndLight& light, glm::dvec3& position, 
     const glm::dvec3 first = value.item(0).vector3(coordinate);
     float corners[CND_MAX_CORNERS][3] = {};
     for (size_t i = 1; i < value.size(); ++i)
-        setVector(corners[i], value.item(i).vector3(coordinate) - first);
+        assign(corners[i], glm::vec3(value.item(i).vector3(coordinate) - first));
     CndError error{};
     if (cndPolygonFromCorners(corners, uint32_t(value.size()), &light, &polygon, &error) !=
         CND_SUCCESS)
         value.fail(error.message);
-    position = first + glm::dvec3(light.position[0], light.position[1], light.position[2]);
+    position = first + glm::dvec3(toGlm(light.position));
 }
 
 // Reads what a key says of a light. `light` has what the keys before it said; `position` is that of
@@ -111,7 +106,7 @@ void readKey(const JsonValue& value, LightKeyMeaning meaning, CndLight& light, g
         const glm::dvec3 start = position, end = value.vector3(coordinate);
         if (!(glm::length(end - start) > minLength))
             value.fail("must not be the same point as start");
-        setVector(light.axisU, 0.5 * (end - start));
+        assign(light.axisU, glm::vec3(0.5 * (end - start)));
         position = 0.5 * (start + end);
         return;
     }
@@ -125,14 +120,14 @@ void readKey(const JsonValue& value, LightKeyMeaning meaning, CndLight& light, g
         light.radius = readRadius(value, 1);
         return;
     case LightKeyMeaning::AxisU:
-        setVector(light.axisU, readAxis(value));
+        assign(light.axisU, glm::vec3(readAxis(value)));
         return;
     case LightKeyMeaning::AxisV: {
-        const glm::dvec3 u(light.axisU[0], light.axisU[1], light.axisU[2]), v = readAxis(value);
+        const glm::dvec3 u(toGlm(light.axisU)), v = readAxis(value);
         // CndLight requires a cosine of at most 1e-3, in single precision.
         if (!(std::abs(glm::dot(glm::normalize(u), glm::normalize(v))) <= 0.99e-3))
             value.fail("must be perpendicular to axis_u");
-        setVector(light.axisV, v);
+        assign(light.axisV, glm::vec3(v));
         return;
     }
     case LightKeyMeaning::InnerCone:
@@ -212,7 +207,7 @@ void readEmission(const JsonValue& json, CndLight& light)
         json.fail("\"" + keys.front() + "\" is missing");
     const JsonValue value = json.member(*given);
     const glm::dvec3 emission = value.vector3({0}) * emissionPerUnit(*given, light);
-    setVector(light.emission, emission);
+    assign(light.emission, glm::vec3(emission));
     for (const float e : light.emission)
         if (!std::isfinite(e))
             value.fail("needs an emission beyond single precision for so small a light");

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "candelabra/glm.hpp"
 #include "generate/ray_caster.h"
 #include "load/outside.h"
 #include "scene/fit_camera.h"
@@ -285,8 +286,7 @@ std::vector<glm::dvec3> emitterCorners(const Scene& scene)
         const double radius = double{cndEmitterBoundingRadius(&light)};
         for (int corner = 0; corner < 8; ++corner)
             out.push_back(
-                scene.lightOrigin +
-                glm::dvec3(light.position[0], light.position[1], light.position[2]) +
+                scene.lightOrigin + glm::dvec3(toGlm(light.position)) +
                 radius * glm::dvec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1));
     }
     return out;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "candelabra/glm.hpp"
 #include "generate/light_overlaps.h"
 
 namespace candelabra::app
@@ -51,7 +52,7 @@ double illuminanceOf(const CndLight& light)
 double illuminanceOf(const CndLight& light, const glm::dvec3& position, const SurfaceSample& sample)
 {
     if (cndIsDistant(light.type)) {
-        const glm::dvec3 d(light.direction[0], light.direction[1], light.direction[2]);
+        const glm::dvec3 d(toGlm(light.direction));
         return illuminanceOf(light) * std::max(-glm::dot(glm::normalize(d), sample.normal), 0.0);
     }
     const glm::dvec3 toLight = position - sample.position;
@@ -130,7 +131,7 @@ double typicalIlluminance(const Scene& scene)
     size_t count = 0;
     for (size_t i = 0; i < all.size(); i += step, ++count)
         for (const CndLight& light : scene.lights) {
-            const glm::dvec3 position(light.position[0], light.position[1], light.position[2]);
+            const glm::dvec3 position(toGlm(light.position));
             sum += illuminanceOf(light, scene.lightOrigin + position, all[i]);
         }
     return (count ? sum / double(count) : 0) +

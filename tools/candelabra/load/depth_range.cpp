@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "candelabra/glm.hpp"
+
 namespace candelabra::app
 {
 namespace
@@ -19,8 +21,7 @@ void addEmitter(const Scene& scene, size_t index, Bounds& bounds)
     if (index < scene.lightMotions.size())
         reach += double{glm::length(scene.lightMotions[index].axisU)} +
                  double{glm::length(scene.lightMotions[index].axisV)};
-    const glm::dvec3 centre =
-        scene.lightOrigin + glm::dvec3(light.position[0], light.position[1], light.position[2]);
+    const glm::dvec3 centre = scene.lightOrigin + glm::dvec3(toGlm(light.position));
     bounds.min = glm::min(bounds.min, centre - reach);
     bounds.max = glm::max(bounds.max, centre + reach);
 }

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "candelabra/glm.hpp"
 #include "render/check.h"
 #include "scene/shadow_casters.h"
 
@@ -218,8 +219,7 @@ std::pair<glm::dvec3, double> ballAround(const Scene& scene)
         include(object.point, object.type == AnalyticObject::Type::Ball ? object.radius : 0);
     for (const CndLight& light : scene.lights)
         if (!cndIsDistant(light.type))
-            include(scene.lightOrigin +
-                        glm::dvec3(light.position[0], light.position[1], light.position[2]),
+            include(scene.lightOrigin + glm::dvec3(toGlm(light.position)),
                     double(cndEmitterBoundingRadius(&light)));
     for (const Camera& camera : scene.cameras)
         include(camera.position, 0);

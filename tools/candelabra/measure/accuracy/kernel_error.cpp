@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "candelabra/glm.hpp"
 #include "io/table.h"
 
 namespace candelabra::app
@@ -231,8 +232,7 @@ std::string describeSample(const SampleSet& set, size_t i)
     const gpu::BenchReceiver& r = set.receivers[i];
     const bool distant = cndIsDistant(light.type);
     const glm::dvec3 to =
-        distant ? -glm::dvec3(light.direction[0], light.direction[1], light.direction[2])
-                : glm::dvec3(light.position[0], light.position[1], light.position[2]);
+        distant ? -glm::dvec3(toGlm(light.direction)) : glm::dvec3(toGlm(light.position));
     constexpr double degrees = 180 / std::numbers::pi;
     const double distance = glm::length(to);
     const double s = std::min(double(light.radius) / distance, 1.0);

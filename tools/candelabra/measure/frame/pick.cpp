@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "candelabra/glm.hpp"
 #include "io/table.h"
 #include "measure/frame/surfaces.h"
 #include "reference/emitter_points.h"
@@ -232,8 +233,7 @@ Pick pickPixel(const VulkanContext& context, Renderer& renderer, const Scene& sc
     const VkRect2D rect{{int32_t(pixel.x), int32_t(pixel.y)}, {1, 1}};
     for (uint32_t i = 0; i < lights.size(); ++i) {
         const CndLight& light = lights[i];
-        const glm::dvec3 centre =
-            scene.lightOrigin + glm::dvec3(light.position[0], light.position[1], light.position[2]);
+        const glm::dvec3 centre = scene.lightOrigin + glm::dvec3(toGlm(light.position));
         const double distance =
             cndIsDistant(light.type) ? 0 : glm::length(centre - seen->point.position);
         // The margin of 0.1% keeps every light that the device, which rounds the distance, lets

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "candelabra/glm.hpp"
 #include "io/table.h"
 #include "measure/kernels/parallel.h"
 #include "reference/truth.h"
@@ -72,7 +73,7 @@ Compared compareWithTruth(const gpu::SweepRecord& r, const Evaluation& evaluatio
     const float rounded = r.perceptualRoughness * r.perceptualRoughness;
     const double alpha = std::max(double(rounded), double(gpu::MIN_ALPHA));
     const CndLight light = lightOf(r, evaluation.lightType);
-    const glm::dvec3 to(light.position[0], light.position[1], light.position[2]);
+    const glm::dvec3 to(toGlm(light.position));
     const bool distant = cndIsDistant(evaluation.lightType);
     if (!distant && !(glm::length(to) > 0))
         return {};

@@ -15,6 +15,7 @@
 
 #include <fmt/format.h>
 
+#include "candelabra/glm.hpp"
 #include "generate/random.h"
 #include "io/table.h"
 #include "measure/frame/frames.h"
@@ -95,8 +96,8 @@ private:
     {
         if (emitter_.isPoint())
             return emitter_.at(0, 0);
-        const float(&v)[3] = cndIsDistant(light_.type) ? light_.direction : light_.position;
-        const glm::dvec3 vector(v[0], v[1], v[2]);
+        const glm::dvec3 vector(
+            toGlm(cndIsDistant(light_.type) ? light_.direction : light_.position));
         const glm::dvec3 toCentre =
             cndIsDistant(light_.type) ? -vector : origin_ + vector - surface_.position;
         return emitter_.along(glm::normalize(toCentre)).value_or(emitter_.at(0.5, 0.5));
