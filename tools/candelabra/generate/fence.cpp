@@ -42,11 +42,6 @@ struct Kit {
     std::vector<Pole> poles;
 };
 
-uint32_t anyOf(Random& random, const std::vector<uint32_t>& from)
-{
-    return from[random.below(uint32_t(from.size()))];
-}
-
 void addMaterials(Kit& kit)
 {
     SceneBuilder& b = kit.builder;
@@ -93,7 +88,7 @@ void addLeaf(Kit& kit, Random& random, const Pole& pole)
     leaf = glm::rotate(leaf, -droop, glm::dvec3(0, 0, 1));
     leaf = glm::translate(leaf, glm::dvec3(0.5 * length + 0.04, 0, 0));
     leaf = glm::rotate(leaf, pi * double(random.uniform()), glm::dvec3(1, 0, 0));
-    kit.builder.place(kit.box, anyOf(random, kit.greens),
+    kit.builder.place(kit.box, random.anyOf(kit.greens),
                       glm::scale(leaf, glm::dvec3(length, 0.004, width)));
 }
 
@@ -130,7 +125,7 @@ LightSite anySite(const Kit& kit, Random& random)
         site.position = {reachAt(z) * across, 0.1 + 0.4 * up, z};
         site.colour = blackbodyColour(random.uniform(2000, 5000));
     } else if (where < 0.85) { // in the bamboo
-        const Pole& pole = kit.poles[random.below(uint32_t(kit.poles.size()))];
+        const Pole& pole = random.anyOf(kit.poles);
         site.position = glm::mix(pole.foot, pole.top, 0.1 + 0.85 * up);
         site.position += glm::dvec3(0.25 * across, 0, 0.2 + 0.15 * ahead);
         site.colour = hueColour(random.uniform(0.08f, 0.55f), random.uniform(0.3f, 0.7f));

@@ -131,15 +131,11 @@ void addKerbside(Kit& kit, Random& random, double x, double z)
 {
     const double edge = 0.5 * blockSize - lampOffset;
     const int perSide = int(blockSize / lampSpacing);
+    const glm::dvec2 outward[] = {{0, 1}, {1, 0}, {0, -1}, {-1, 0}};
     for (int side = 0; side < 4; ++side) {
         // The lamp's arm, which points to +z in the mesh, points away from the block.
         const double yaw = 0.5 * pi * side;
-        const glm::dvec2 out{side == 1   ? 1
-                             : side == 3 ? -1
-                                         : 0,
-                             side == 0   ? 1
-                             : side == 2 ? -1
-                                         : 0};
+        const glm::dvec2& out = outward[side];
         for (int i = 0; i < perSide; ++i) {
             const double along = lampSpacing * (i + 0.5) - 0.5 * blockSize;
             const glm::dvec2 at = glm::dvec2(x, z) + edge * out + along * glm::dvec2(-out.y, out.x);
@@ -165,8 +161,7 @@ void addBlock(Kit& kit, Random& random, int blockX, int blockZ)
         b.place(kit.mesh.street, m.water, {x, waterLevel, z}, {blockSize, 1, blockSize});
         return;
     }
-    b.place(kit.mesh.street, m.asphalt[random.below(uint32_t(m.asphalt.size()))], {x, 0, z},
-            {blockSize, 1, blockSize});
+    b.place(kit.mesh.street, random.anyOf(m.asphalt), {x, 0, z}, {blockSize, 1, blockSize});
     const bool besideWheel = glm::length(glm::dvec2(x - wheelHub.x, z - wheelHub.z)) < 75;
     const bool park = random.chance(0.07f) || besideWheel;
     // The rim of the slab is 0.012 high in the mesh.

@@ -81,21 +81,19 @@ Mesh makeSetbackTower()
 
 Mesh makeRoundTower()
 {
-    Mesh mesh;
     // u runs around as many windows as four facades have, and v runs upwards.
-    for (Mesh part : {makeLathe({{{0.5f, 0}, {0.5f, 0.94f}}}, 24)}) {
-        for (Vertex& vertex : part.vertices)
-            vertex.uv[0] = vertex.uv[1] = glm::vec2(4 * vertex.uv[0].x, vertex.position.y);
-        appendMesh(mesh, part, glm::mat4(1));
-    }
-    for (Mesh part : {makeLathe({{{0.5f, 0.94f}, {0.53f, 0.95f}},
-                                 {{0.53f, 0.95f}, {0.53f, 0.97f}},
-                                 {{0.53f, 0.97f}, {0.3f, 1}, {0, 1}}},
-                                24)}) {
-        for (Vertex& vertex : part.vertices)
-            vertex.uv[0] = vertex.uv[1] = glm::vec2(0);
-        appendMesh(mesh, part, glm::mat4(1));
-    }
+    Mesh walls = makeLathe({{{0.5f, 0}, {0.5f, 0.94f}}}, 24);
+    for (Vertex& vertex : walls.vertices)
+        vertex.uv[0] = vertex.uv[1] = glm::vec2(4 * vertex.uv[0].x, vertex.position.y);
+    Mesh roof = makeLathe({{{0.5f, 0.94f}, {0.53f, 0.95f}},
+                           {{0.53f, 0.95f}, {0.53f, 0.97f}},
+                           {{0.53f, 0.97f}, {0.3f, 1}, {0, 1}}},
+                          24);
+    for (Vertex& vertex : roof.vertices)
+        vertex.uv[0] = vertex.uv[1] = glm::vec2(0);
+    Mesh mesh;
+    appendMesh(mesh, walls, glm::mat4(1));
+    appendMesh(mesh, roof, glm::mat4(1));
     return mesh;
 }
 

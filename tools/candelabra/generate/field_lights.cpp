@@ -144,7 +144,7 @@ LightSite onRoof(Random& random, const glm::dvec2& p, const Buildings& buildings
     if (choice.empty()) {
         return site; // in parks and at the river it stays a street lamp
     }
-    const Building& building = choice[random.below(uint32_t(choice.size()))];
+    const Building& building = random.anyOf(choice);
     const glm::dvec2 offset = 0.8 * (2.0 * glm::dvec2(random.uniform2()) - 1.0);
     site.radius = random.skewed(0.3f, building.height > 60 ? 3.0f : 1.2f);
     site.position =

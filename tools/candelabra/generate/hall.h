@@ -82,11 +82,6 @@ struct Kit {
     SceneBuilder builder;
     Meshes mesh;
     Materials material;
-
-    uint32_t anyOf(Random& random, const std::vector<uint32_t>& materials) const
-    {
-        return materials[random.below(uint32_t(materials.size()))];
-    }
 };
 
 void addMeshes(Kit& kit);

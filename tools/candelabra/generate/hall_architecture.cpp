@@ -157,7 +157,7 @@ void addSideWall(Kit& kit, Random& random, double side)
 {
     const auto addBlock = [&](double middle, double length, int course) {
         const double proud = random.uniform(0.0f, 0.04f);
-        kit.builder.place(kit.mesh.box, kit.anyOf(random, kit.material.stone),
+        kit.builder.place(kit.mesh.box, random.anyOf(kit.material.stone),
                           {middle, courseHeight * (course + 0.5), side * (halfWidth + 0.2 - proud)},
                           {length, courseHeight, 0.5});
     };
@@ -211,7 +211,7 @@ void addEndWall(Kit& kit, Random& random, double end)
             const double z = length * (i + (course % 2 ? 0.0 : 0.5));
             if (atRose && std::abs(z) < roseRadius + 0.5 * length)
                 continue;
-            kit.builder.place(kit.mesh.box, kit.anyOf(random, kit.material.stone),
+            kit.builder.place(kit.mesh.box, random.anyOf(kit.material.stone),
                               {end * (halfLength + 0.25), height * (course + 0.5), z},
                               {0.5, height, length});
         }

@@ -129,7 +129,7 @@ void addExhibit(Kit& kit, Random& random, const glm::dvec3& at, int kind)
     const Materials& m = kit.material;
     const uint32_t metals[] = {m.gold, m.copper, m.chrome, m.silver, m.bronze, m.iron};
     const bool metal = random.chance(0.5f);
-    const uint32_t material = metal ? metals[random.below(6)] : kit.anyOf(random, m.glaze);
+    const uint32_t material = metal ? random.anyOf(metals) : random.anyOf(m.glaze);
     const double yaw = 2 * pi * random.uniform();
     b.place(kit.mesh.box, m.darkMarble, at + glm::dvec3(0, 0.08, 0), {0.95, 0.16, 0.95});
     b.place(kit.mesh.box, m.stone[3], at + glm::dvec3(0, 0.56, 0), {0.7, 0.8, 0.7});
@@ -176,7 +176,7 @@ void addScatter(Kit& kit, Random& random)
         const double toLantern =
             std::hypot(x - bayWidth * std::round(x / bayWidth), std::abs(z) - lanternZ);
         const bool metal = random.chance(0.35f);
-        const uint32_t material = metal ? metals[random.below(5)] : kit.anyOf(random, m.glaze);
+        const uint32_t material = metal ? random.anyOf(metals) : random.anyOf(m.glaze);
         const bool round = random.chance(0.8f);
         if (toLantern < 0.3 + 1.2 * radius)
             continue; // it would lie in the lantern

@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <string>
+
+#include <fmt/format.h>
 
 #include "candelabra/glm.hpp"
 #include "generate/light_overlaps.h"
@@ -25,13 +26,6 @@ glm::vec3 withUnitLuminance(const glm::vec3& rgb)
     return rgb / glm::dot(rgb, glm::vec3(0.2126f, 0.7152f, 0.0722f));
 }
 
-std::string shortNumber(double value)
-{
-    char text[32];
-    std::snprintf(text, sizeof(text), "%g", value);
-    return text;
-}
-
 glm::dvec3 startOf(const LightSite& site)
 {
     return site.position + glm::dvec3(site.motion.axisU * std::cos(site.motion.phase) +
@@ -49,13 +43,12 @@ OverlapScale findScale(const Scene& scene, const std::vector<LightReach>& reache
     OverlapScale found = scaleForOverlaps(samples, reaches, wanted);
     if (found.scale == 0 && !options.overlaps)
         found = scaleForOverlaps(samples, reaches, 0.5 * found.reachable);
-    if (found.scale == 0) {
-        throw SceneError(scene.name + ": overlaps: a mean of " + shortNumber(wanted) +
-                         " lights per pixel cannot be reached with " +
-                         counted(reaches.size(), "light") + ", at most " +
-                         shortNumber(found.reachable) +
-                         " of them can light the average visible point");
-    }
+    if (found.scale == 0)
+        throw SceneError(fmt::format("{}: overlaps: a mean of {:g} lights per pixel cannot be "
+                                     "reached with {}, at most {:g} of them can light the average "
+                                     "visible point",
+                                     scene.name, wanted, counted(reaches.size(), "light"),
+                                     found.reachable));
     return found;
 }
 
@@ -132,21 +125,18 @@ LightMotion circleMotion(Random& random, double height, float lightRadius, float
 
 void checkLightOptions(const std::string& name, uint32_t count, const SceneOptions& options)
 {
-    if (count > maxLights) {
-        throw SceneError(name + ": lights: " + std::to_string(count) +
-                         " is more than the limit of " + std::to_string(maxLights));
-    }
+    if (count > maxLights)
+        throw SceneError(
+            fmt::format("{}: lights: {} is more than the limit of {}", name, count, maxLights));
     if (!options.overlaps)
         return;
     const double overlaps = *options.overlaps;
-    if (!std::isfinite(overlaps) || overlaps <= 0) {
-        throw SceneError(name + ": overlaps: must be a finite number above 0, not " +
-                         shortNumber(overlaps));
-    }
-    if (count > 0 && overlaps > count) {
-        throw SceneError(name + ": overlaps: " + shortNumber(overlaps) + " is more than the " +
-                         counted(count, "light"));
-    }
+    if (!std::isfinite(overlaps) || overlaps <= 0)
+        throw SceneError(
+            fmt::format("{}: overlaps: must be a finite number above 0, not {:g}", name, overlaps));
+    if (count > 0 && overlaps > count)
+        throw SceneError(fmt::format("{}: overlaps: {:g} is more than the {}", name, overlaps,
+                                     counted(count, "light")));
 }
 
 void addSphereLights(Scene& scene, const std::vector<LightSite>& sites, const SceneOptions& options)
@@ -210,12 +200,10 @@ void addRandomLights(Scene& scene, const SceneOptions& options, float edgeIllumi
     Bounds bounds = sceneBounds(scene);
     const double diagonal = glm::length(bounds.max - bounds.min);
     // Below a micrometre, squares of the lights' sizes leave the range of floats.
-    if (!std::isfinite(diagonal) || diagonal < 1e-6) {
-        throw SceneError(scene.name +
-                         ": lights: random lights need meshes that span at least "
-                         "a micrometre, these span " +
-                         shortNumber(diagonal) + " m");
-    }
+    if (!std::isfinite(diagonal) || diagonal < 1e-6)
+        throw SceneError(fmt::format("{}: lights: random lights need meshes that span at least a "
+                                     "micrometre, these span {:g} m",
+                                     scene.name, diagonal));
     thickenBounds(bounds, 0.1 * diagonal);
     const glm::dvec3 size = bounds.max - bounds.min;
     if (scene.lights.empty())

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 
 #include <glm/glm.hpp>
 
@@ -59,6 +60,8 @@ public:
         return low + (high - low) * share * share;
     }
 
+    // Returns one of the values, which are equally likely.
+    const auto& anyOf(const auto& values) { return values[below(uint32_t(std::size(values)))]; }
     // Returns one of the values, each with the probability of its share.
     template <typename T, size_t N>
     T oneOf(const Share<T> (&choices)[N])

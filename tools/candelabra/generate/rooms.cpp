@@ -34,11 +34,6 @@ struct RoomKit {
     std::vector<RoomBox> furniture[roomCount];
 };
 
-uint32_t anyMaterial(Random& random, const std::vector<uint32_t>& from)
-{
-    return from[random.below(uint32_t(from.size()))];
-}
-
 // The corner of a room with the smallest coordinates.
 glm::dvec3 roomOrigin(uint32_t room)
 {
@@ -101,16 +96,12 @@ void addWalls(RoomKit& kit, Random& random)
                {end.x + 0.1, roomSize.y + 0.2, end.z + 0.1});
     std::vector<bool> doors(2 * roomCount - roomColumns - roomRows);
     std::fill_n(doors.begin(), doorCount, true);
-    for (size_t i = doors.size() - 1; i > 0; --i) {
-        const size_t other = random.below(uint32_t(i + 1));
-        const bool door = doors[i];
-        doors[i] = doors[other];
-        doors[other] = door;
-    }
+    for (size_t i = doors.size() - 1; i > 0; --i)
+        std::vector<bool>::swap(doors[i], doors[random.below(uint32_t(i + 1))]);
     size_t inner = 0;
     const auto add = [&](uint32_t column, uint32_t row, bool alongX) {
         const bool isOuter = alongX ? row % roomRows == 0 : column % roomColumns == 0;
-        const uint32_t paint = anyMaterial(random, kit.paints);
+        const uint32_t paint = random.anyOf(kit.paints);
         const double door = random.uniform(0.55f, 0.85f);
         addWall(kit, paint, roomSize * glm::dvec3(column, 0, row), alongX,
                 !isOuter && doors[inner++], door);
@@ -173,8 +164,7 @@ private:
 void furnish(RoomKit& kit, Random& random, uint32_t room)
 {
     Furniture add(kit, room);
-    const uint32_t fabric = anyMaterial(random, kit.fabrics),
-                   rug = anyMaterial(random, kit.fabrics);
+    const uint32_t fabric = random.anyOf(kit.fabrics), rug = random.anyOf(kit.fabrics);
     const uint32_t wood = random.chance(0.5f) ? kit.oak : kit.walnut;
     const double aside = random.uniform(-20, 20), depth = random.uniform(-10, 10);
     add.shelf(wood, {455, 0, 215 + depth}, {36, 190, 130});

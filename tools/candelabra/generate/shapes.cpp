@@ -55,15 +55,8 @@ std::vector<glm::vec2> profileNormals(const ProfileRun& run)
 Mesh makeBox()
 {
     Mesh mesh;
-    for (int turn = 0; turn < 4; ++turn) {
-        // Sine and cosine of quarter turns about y as integers, which are exact.
-        const glm::vec3 out{turn == 0   ? 1
-                            : turn == 2 ? -1
-                                        : 0,
-                            0,
-                            turn == 1   ? -1
-                            : turn == 3 ? 1
-                                        : 0};
+    const glm::vec3 outward[] = {{1, 0, 0}, {0, 0, -1}, {-1, 0, 0}, {0, 0, 1}};
+    for (const glm::vec3& out : outward) {
         const glm::vec3 side = glm::cross(glm::vec3(0, 1, 0), out);
         const glm::vec3 up{0, 1, 0};
         appendQuad(mesh, 0.5f * (out - side - up), 0.5f * (out + side - up),
