@@ -11,7 +11,6 @@
 
 #include "candelabra/glm.hpp"
 #include "generate/ray_caster.h"
-#include "scene/light_layers.h"
 
 namespace candelabra::app
 {

@@ -38,4 +38,11 @@ struct GltfLights {
 void addGltfLights(const GltfDocument& document, const GltfPlacedNode& placed,
                    const SceneOptions& options, GltfLights& out);
 
+// The drawn body of a lamp must not shadow the lamp's light. A body is an instance that emits and
+// surrounds a light: it hides the light in more than half of all directions, as a closed mesh does,
+// and a bulb without its base. Bodies get an occluder layer of their own, which does not
+// shadow the lights in them. Shades that do not emit stay what they are. `positions`: of the
+// scene's lights, in world space.
+void findLampBodies(Scene& scene, const std::vector<glm::dvec3>& positions);
+
 } // namespace candelabra::app

@@ -49,4 +49,10 @@ std::vector<GltfPlacedNode> placeGltfNodes(const GltfDocument& document);
 // joints that only a skin names. Fails as placeGltfNodes does.
 std::vector<glm::dmat4> gltfWorldTransforms(const GltfDocument& document);
 
+// Returns the transforms from the mesh of node `node` to the node, one per copy of the mesh: those
+// of EXT_mesh_gpu_instancing, otherwise a single identity. Fails if there are more than
+// `mostInstances`.
+std::vector<glm::dmat4> readGltfInstancing(const GltfDocument& document, size_t node,
+                                           size_t mostInstances);
+
 } // namespace candelabra::app

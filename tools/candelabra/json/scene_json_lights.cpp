@@ -11,7 +11,6 @@
 
 #include "candelabra/glm.hpp"
 #include "scene/cone.h"
-#include "scene/light_placement.h"
 #include "scene/light_types.h"
 #include "scene/scene_file.h"
 #include "scene/warnings.h"

@@ -19,7 +19,7 @@ inline constexpr NumberRange coordinate{-maxCoordinate, maxCoordinate};
 uint32_t readLayers(const JsonValue& json, uint32_t count = CND_LAYER_COUNT,
                     const char* otherwise = "all layers");
 
-// Appends the lights of the array `list` to the scene's and places them (light_placement.h). Throws
+// Appends the lights of the array `list` to the scene's and places them (scene.h). Throws
 // SceneError.
 void readSceneLights(const JsonValue& list, Scene& scene);
 

@@ -5,17 +5,18 @@
 #include <cfloat>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <span>
 
 #include <fmt/format.h>
 
+#include "candelabra/glm.hpp"
 #include "generate/generators.h"
 #include "generate/lights.h"
 #include "gltf/gltf.h"
 #include "io/suggestion.h"
 #include "load/auto_cameras.h"
 #include "load/brightness.h"
-#include "load/depth_range.h"
 #include "load/studio.h"
 #include "scene/file_kind.h"
 #include "scene/scene_error.h"
@@ -238,6 +239,52 @@ void warnOfNarrowLobes(const std::string& file, Scene& scene)
         m.name.empty() ? std::to_string(*first) : '"' + printable(m.name, 60) + '"',
         others ? fmt::format(" (and {} {})", others, others == 1 ? "other" : "others") : "",
         alphaOf(m), CND_MIN_ALPHA));
+}
+
+// Adds the box around the emitter of a light, wherever its motion takes it.
+void addEmitter(const Scene& scene, size_t index, Bounds& bounds)
+{
+    const CndLight& light = scene.lights[index];
+    if (cndIsDistant(light.type) || cndIsPunctual(light.type))
+        return;
+    double reach = double{cndEmitterBoundingRadius(&light)};
+    if (index < scene.lightMotions.size())
+        reach += double{glm::length(scene.lightMotions[index].axisU)} +
+                 double{glm::length(scene.lightMotions[index].axisV)};
+    const glm::dvec3 centre = scene.lightOrigin + glm::dvec3(toGlm(light.position));
+    bounds.min = glm::min(bounds.min, centre - reach);
+    bounds.max = glm::max(bounds.max, centre + reach);
+}
+
+// Moves the near and far plane of every orthographic camera to the scene, with room on either side
+// as wide as the scene for what a user moves. The planes only come closer together, so what a
+// camera did not show stays out of the picture. Orthographic depth is linear, and float rounds it
+// to 6e-8 of the range: files with a far plane at 1e6 m would have surfaces wrong by centimetres.
+// Perspective cameras need no such thing: their depth is reversed, and its error is 6e-8 of the
+// distance whatever the far plane.
+void fitDepthRanges(Scene& scene)
+{
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Bounds bounds{glm::dvec3(infinity), glm::dvec3(-infinity)};
+    if (!scene.instances.empty())
+        bounds = sceneBounds(scene);
+    for (size_t i = 0; i < scene.lights.size(); ++i)
+        addEmitter(scene, i, bounds);
+    if (!(bounds.min.x <= bounds.max.x))
+        return;
+    const glm::dvec3 middle = 0.5 * (bounds.min + bounds.max), half = bounds.max - middle;
+    for (Camera& camera : scene.cameras) {
+        if (!camera.orthographic)
+            continue;
+        const double depth = glm::dot(middle - camera.position, camera.forward);
+        const double reach = 3 * glm::length(half);
+        const double nearPlane = std::max(camera.nearPlane, depth - reach);
+        const double farPlane = std::min(camera.farPlane, depth + reach);
+        if (farPlane > nearPlane) { // else the camera shows nothing
+            camera.nearPlane = nearPlane;
+            camera.farPlane = farPlane;
+        }
+    }
 }
 
 } // namespace

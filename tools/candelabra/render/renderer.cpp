@@ -18,10 +18,7 @@
 #include "render/frame_stamps.h"
 #include "render/image_barrier.h"
 #include "render/pipeline_watch.h"
-#include "render/scene_environment.h"
-#include "render/scene_geometry.h"
-#include "render/scene_occluders.h"
-#include "scene/light_layers.h"
+#include "render/scene_upload.h"
 
 namespace candelabra::app
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/scene_environment.h"
+#include "render/scene_upload.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/scene.h"
 
+#include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
+#include <iterator>
 
 #include "scene/mesh_bounds.h"
 
@@ -99,6 +102,19 @@ void move(CndLight& light, const LightMotion& motion, double time)
 
 } // namespace
 
+bool isShown(const CndLight& light, const Camera& camera)
+{
+    return !light.layers || !camera.layers || light.layers & camera.layers;
+}
+
+std::vector<CndLight> lightsShown(const std::vector<CndLight>& lights, const Camera& camera)
+{
+    std::vector<CndLight> shown;
+    std::ranges::copy_if(lights, std::back_inserter(shown),
+                         [&](const CndLight& light) { return isShown(light, camera); });
+    return shown;
+}
+
 CndLight lightAtTime(const Scene& scene, size_t light, double time)
 {
     CndLight out = scene.lights[light];
@@ -112,6 +128,27 @@ void lightsAtTime(const Scene& scene, double time, std::vector<CndLight>& out)
     out = scene.lights;
     for (size_t i = 0; i < scene.lightMotions.size() && i < out.size(); ++i)
         move(out[i], scene.lightMotions[i], time);
+}
+
+void placeLights(Scene& scene, const std::vector<glm::dvec3>& worldPositions)
+{
+    assert(worldPositions.size() == scene.lights.size());
+    constexpr double nearOrigin = 1024; // metres
+    glm::dvec3 low{0}, high{0};
+    bool first = true;
+    for (size_t i = 0; i < worldPositions.size(); ++i) {
+        if (cndIsDistant(scene.lights[i].type))
+            continue;
+        low = first ? worldPositions[i] : glm::min(low, worldPositions[i]);
+        high = first ? worldPositions[i] : glm::max(high, worldPositions[i]);
+        first = false;
+    }
+    const glm::dvec3 extent = glm::max(glm::abs(low), glm::abs(high));
+    const bool isNear = extent.x <= nearOrigin && extent.y <= nearOrigin && extent.z <= nearOrigin;
+    scene.lightOrigin = isNear ? glm::dvec3(0) : 0.5 * (low + high);
+    for (size_t i = 0; i < worldPositions.size(); ++i)
+        for (int k = 0; k < 3 && !cndIsDistant(scene.lights[i].type); ++k)
+            scene.lights[i].position[k] = float(worldPositions[i][k] - scene.lightOrigin[k]);
 }
 
 } // namespace candelabra::app

@@ -190,10 +190,23 @@ Bounds sceneBounds(const Scene& scene);
 // others in their place.
 bool hasDiffuseOnlySurfaces(const Scene& scene, const std::vector<Material>& materials);
 
+// True if the light has a layer in common with the camera. A mask of 0 stands for all layers.
+bool isShown(const CndLight& light, const Camera& camera);
+
+// The lights that have a layer in common with the camera, in the same order.
+std::vector<CndLight> lightsShown(const std::vector<CndLight>& lights, const Camera& camera);
+
 // Returns a light of the scene at the place where it is at `time` seconds.
 CndLight lightAtTime(const Scene& scene, size_t light, double time);
 
 // Sets `out` to the scene's lights, the moving ones at the places where they are at `time` seconds.
 void lightsAtTime(const Scene& scene, double time, std::vector<CndLight>& out);
+
+// Positions of lights in files are in double precision, while CndLight has floats relative to
+// Scene::lightOrigin. Chooses that origin and sets the positions of scene.lights to `worldPositions`, which has
+// one position per light in metres. The origin is 0 if no coordinate of a light exceeds 1024 m,
+// where floats are 0.06 mm apart, else the centre of the positions' bounds. Lights that are
+// infinitely far away have no position and are left alone.
+void placeLights(Scene& scene, const std::vector<glm::dvec3>& worldPositions);
 
 } // namespace candelabra::app

@@ -8,7 +8,6 @@
 
 #include "io/hash.h"
 #include "scene/fit_camera.h"
-#include "scene/light_layers.h"
 #include "scene/shadow_casters.h"
 
 namespace candelabra::app

@@ -12,7 +12,6 @@
 #include "measure/frame/surfaces.h"
 #include "render/frame_ring.h"
 #include "render/readback.h"
-#include "scene/light_layers.h"
 #include "scene/light_types.h"
 
 namespace candelabra::app
