@@ -329,7 +329,7 @@ TEST_F(Gltf, CamerasFollowTheirNodes)
     EXPECT_TRUE(scene.cameras[2].orthographic);
     EXPECT_EQ(scene.cameras[2].orthographicHeight, 6);
     EXPECT_EQ(scene.cameras[2].aspect, 2);
-    EXPECT_LE(scene.cameras[2].farPlane, 20); // load/depth_range.h
+    EXPECT_LE(scene.cameras[2].farPlane, 20); // fitDepthRanges() of load/load.cpp
 }
 
 } // namespace

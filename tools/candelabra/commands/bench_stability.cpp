@@ -51,11 +51,8 @@ int stability(const ProgramContext& program, const StabilityArguments& a)
                   {"provenance", provenance(context.info(), program.commandLine)}};
     document.update(stabilityJson(settings, result));
     writeJson(json, document);
-    std::vector<Table> tables = stabilityTables(result);
-    for (Table& table : stabilityDetails(result))
-        tables.push_back(std::move(table));
     if (json != "-")
-        writeText("-", textOf(tables));
+        writeText("-", textOf(stabilityTables(result)));
     if (result.invalid())
         spdlog::error("candelabra: {} of {} responses are NaN, infinite, negative or too bright",
                       result.invalid(), result.tried());

@@ -54,11 +54,8 @@ std::vector<uint32_t> unsignedListOption(const std::string& option, const std::s
                                          uint32_t min, uint32_t max)
 {
     std::vector<uint32_t> out;
-    for (size_t start = 0; start <= text.size();) {
-        const size_t end = std::min(text.find(',', start), text.size());
-        out.push_back(unsignedOption(option, text.substr(start, end - start), min, max));
-        start = end + 1;
-    }
+    for (const std::string& part : splitAtCommas(text))
+        out.push_back(unsignedOption(option, part, min, max));
     return out;
 }
 
@@ -407,7 +404,7 @@ void FrameArguments::addCullingTo(CLI::App& command)
 void FrameArguments::addReuseTo(CLI::App& command, Reuse fallback)
 {
     const OptionGroup group(command, lightingGroup);
-    reuse = reuseName(fallback);
+    reuse = nameOf(fallback, reuseChoices);
     addChoice(command, "--reuse", reuse, reuseChoices,
               "what a frame reuses from the previous frame if nothing has changed; the image stays "
               "the same");

@@ -17,12 +17,29 @@ public:
     };
 
     // For the thread that works: says what it does now. Returns false if it should stop instead.
-    [[nodiscard]] bool doing(const std::string& what, double done);
+    [[nodiscard]] bool doing(const std::string& what, double done)
+    {
+        const std::lock_guard lock(mutex_);
+        state_ = {what, done};
+        return !stopped_;
+    }
 
     // For the thread that waits.
-    State state() const;
-    void stop();
-    bool stopped() const;
+    State state() const
+    {
+        const std::lock_guard lock(mutex_);
+        return state_;
+    }
+    void stop()
+    {
+        const std::lock_guard lock(mutex_);
+        stopped_ = true;
+    }
+    bool stopped() const
+    {
+        const std::lock_guard lock(mutex_);
+        return stopped_;
+    }
 
 private:
     mutable std::mutex mutex_;

@@ -36,12 +36,12 @@ std::optional<double> parseNumber(std::string_view text)
     return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-std::vector<std::string> splitAtCommas(const std::string& text)
+std::vector<std::string> splitAtCommas(std::string_view text)
 {
     std::vector<std::string> out;
     for (size_t start = 0; start <= text.size();) {
         const size_t end = std::min(text.find(',', start), text.size());
-        out.push_back(text.substr(start, end - start));
+        out.emplace_back(text.substr(start, end - start));
         start = end + 1;
     }
     return out;
@@ -50,13 +50,11 @@ std::vector<std::string> splitAtCommas(const std::string& text)
 std::optional<std::vector<double>> parseNumbers(std::string_view text)
 {
     std::vector<double> out;
-    for (size_t start = 0; start <= text.size();) {
-        const size_t end = std::min(text.find(',', start), text.size());
-        const auto value = parseNumber(text.substr(start, end - start));
+    for (const std::string& part : splitAtCommas(text)) {
+        const auto value = parseNumber(part);
         if (!value)
             return std::nullopt;
         out.push_back(*value);
-        start = end + 1;
     }
     return out;
 }

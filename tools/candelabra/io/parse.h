@@ -18,7 +18,7 @@ std::optional<double> parseNumber(std::string_view text);
 // Finite numbers separated by commas, at least one.
 std::optional<std::vector<double>> parseNumbers(std::string_view text);
 // Splits "a,b" into "a" and "b". There is always one part more than there are commas.
-std::vector<std::string> splitAtCommas(const std::string& text);
+std::vector<std::string> splitAtCommas(std::string_view text);
 struct PixelSize {
     uint32_t width = 0, height = 0;
 

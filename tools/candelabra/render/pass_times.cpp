@@ -27,6 +27,14 @@ std::string passName(const char* kernelName)
     return name.ends_with(".comp") ? name.substr(0, name.size() - 5) : name;
 }
 
+std::vector<PassTime> passesOf(std::span<const CndKernelTime> times, FramePart part)
+{
+    std::vector<PassTime> out;
+    for (const CndKernelTime& time : times)
+        out.push_back({.name = passName(time.name), .ms = time.ms, .part = part});
+    return out;
+}
+
 void PassTimes::add(std::span<const PassTime> frame)
 {
     double total = 0;

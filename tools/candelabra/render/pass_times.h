@@ -30,6 +30,8 @@ struct PassSummary {
 
 // Removes ".comp" from the end of a name, so "shade_tiles.comp" becomes "shade_tiles".
 std::string passName(const char* kernelName);
+std::vector<PassTime> passesOf(std::span<const CndKernelTime> times,
+                               FramePart part = FramePart::Rest);
 
 class PassTimes
 {

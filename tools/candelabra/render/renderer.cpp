@@ -53,12 +53,6 @@ Stats finishedStats(Result<std::optional<Stats>> result)
     return *stats;
 }
 
-void append(std::vector<PassTime>& out, FramePart part, const CndKernelTime* times, uint32_t count)
-{
-    for (uint32_t i = 0; i < count; ++i)
-        out.push_back({.name = passName(times[i].name), .ms = times[i].ms, .part = part});
-}
-
 const std::vector<Material>& materialsOf(const Scene& scene, const RendererOptions& options)
 {
     return options.materials ? *options.materials : scene.materials;
@@ -381,9 +375,10 @@ Renderer::Renderer(const VulkanContext& context, const Scene& scene, const Rende
         addOccluders(s.lighting, scene, materialsOf(scene, options));
     s.exposure = valueOrThrow(Exposure::create(context.desc(), exposureDesc(options)));
     if (scene.environment)
-        s.environment = uploadEnvironment(
-            context, *scene.environment,
-            {.gbufferLayout = options.gbufferLayout, .framesInFlight = options.framesInFlight});
+        s.environment = uploadEnvironment(context, *scene.environment,
+                                          {.framesInFlight = options.framesInFlight,
+                                           .gbufferLayout = options.gbufferLayout,
+                                           .timestamps = VK_TRUE});
     if (options.stamps)
         s.stamps =
             FrameStamps(context.device(), context.timestampValidBits(), options.framesInFlight, 1);
@@ -770,7 +765,8 @@ FrameStats Renderer::stats(uint32_t slot) const
     out.gpuMs = ends.empty() ? 0 : ends.back();
     out.stamps = state_->stamps.count(slot);
     const auto addModule = [&](FramePart part, const CndKernelTime* rows, uint32_t count) {
-        append(out.passes, part, rows, count);
+        const std::vector<PassTime> passes = passesOf({rows, count}, part);
+        out.passes.insert(out.passes.end(), passes.begin(), passes.end());
         out.stamps += count ? count + 1 : 0; // one more at the beginning of the module
     };
     std::vector<CndKernelTime> rows(CND_MAX_KERNEL_TIMES);

@@ -42,7 +42,7 @@ uint32_t cubeSizeFor(const Image& image)
 } // namespace
 
 Environment uploadEnvironment(const VulkanContext& context, const SceneEnvironment& environment,
-                              const EnvironmentOptions& options)
+                              CndEnvironmentDesc desc)
 {
     const Image& radiance = environment.radiance;
     const gpu::Device& device = context.device();
@@ -51,11 +51,8 @@ Environment uploadEnvironment(const VulkanContext& context, const SceneEnvironme
         throw UsageError(fmt::format("the environment has {}x{} pixels, {} takes at most {} a side",
                                      radiance.width, radiance.height, context.info().name,
                                      largest));
-    Environment out =
-        valueOrThrow(Environment::create(context.desc(), {.framesInFlight = options.framesInFlight,
-                                                          .gbufferLayout = options.gbufferLayout,
-                                                          .cubeSize = cubeSizeFor(radiance),
-                                                          .timestamps = VK_TRUE}));
+    desc.cubeSize = cubeSizeFor(radiance);
+    Environment out = valueOrThrow(Environment::create(context.desc(), desc));
     const gpu::Image image = gpu::createImage(
         device, "environment image", VK_FORMAT_R32G32B32A32_SFLOAT, radiance.width, radiance.height,
         VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, VK_IMAGE_ASPECT_COLOR_BIT);

@@ -5,8 +5,6 @@
 #include <cstring>
 #include <vector>
 
-#include "render/vulkan_context.h"
-
 namespace candelabra::app
 {
 namespace

@@ -23,14 +23,10 @@ gbuffer::Geometry uploadGeometry(const VulkanContext& context, const Scene& scen
 // replaces. Throws RunError if the engine refuses something.
 void addOccluders(Lighting& lighting, const Scene& scene, const std::vector<Material>& materials);
 
-struct EnvironmentOptions {
-    CndGBufferLayout gbufferLayout = CND_GBUFFER_FULL;
-    uint32_t framesInFlight = 1;
-};
-
-// Returns the environment, ready for frames. Throws UsageError, RunError or gpu::Failure.
+// Returns the environment, ready for frames, with the size that suits its image. Throws UsageError,
+// RunError or gpu::Failure.
 Environment uploadEnvironment(const VulkanContext& context, const SceneEnvironment& environment,
-                              const EnvironmentOptions& options);
+                              CndEnvironmentDesc desc);
 
 // Sets CndEnvironmentFrame::worldFromEnvironment to a rotation about the y axis by `rotation`
 // radians, counter-clockwise seen from above.

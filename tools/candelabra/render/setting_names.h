@@ -44,10 +44,6 @@ inline constexpr Choice<CndToneMap> toneMapChoices[] = {{"none", CND_TONEMAP_NON
 inline constexpr Choice<CndMetering> meteringChoices[] = {{"average", CND_METERING_AVERAGE},
                                                           {"centre", CND_METERING_CENTRE_WEIGHTED}};
 
-inline const char* lobesName(CndLobeJoining lobes)
-{
-    return nameOf(lobes, lobeChoices);
-}
 inline const char* specularName(CndSpecularMethod method)
 {
     return nameOf(method, specularChoices);
@@ -79,22 +75,6 @@ inline const char* shadowsName(uint32_t points)
 inline const char* influenceName(CndInfluenceRule rule)
 {
     return rule == CND_INFLUENCE_BY_ERROR ? "error" : nameOf(rule, influenceChoices);
-}
-inline const char* reuseName(Reuse reuse)
-{
-    return nameOf(reuse, reuseChoices);
-}
-inline const char* heatMapName(HeatMap heatMap)
-{
-    return nameOf(heatMap, heatMapChoices);
-}
-inline const char* toneMapName(CndToneMap toneMap)
-{
-    return nameOf(toneMap, toneMapChoices);
-}
-inline const char* gbufferName(CndGBufferLayout layout)
-{
-    return nameOf(layout, gbufferChoices);
 }
 
 } // namespace candelabra::app

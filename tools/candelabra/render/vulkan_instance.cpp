@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstring>
+#include <iterator>
 #include <utility>
 
 #define GLFW_INCLUDE_NONE
@@ -11,6 +12,7 @@
 
 #include "gpu/failure.h"
 #include "gpu/requirements.h"
+#include "io/choice.h"
 #include "io/error.h"
 #include "io/table.h"
 #include "render/check.h"
@@ -86,20 +88,21 @@ std::string lower(std::string text)
     return text;
 }
 
-int preference(VkPhysicalDeviceType type)
+// The types of devices, the preferred ones first.
+constexpr Choice<VkPhysicalDeviceType> deviceTypes[] = {
+    {"discrete GPU", VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU},
+    {"integrated GPU", VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU},
+    {"virtual GPU", VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU},
+    {"CPU", VK_PHYSICAL_DEVICE_TYPE_CPU},
+    {"other", VK_PHYSICAL_DEVICE_TYPE_OTHER}};
+
+// Returns the place of a type in this list. Types that Vulkan may get are others.
+size_t placeOf(VkPhysicalDeviceType type)
 {
-    switch (type) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
-        return 0;
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
-        return 1;
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
-        return 2;
-    case VK_PHYSICAL_DEVICE_TYPE_CPU:
-        return 3;
-    default:
-        return 4;
-    }
+    size_t place = 0;
+    while (place + 1 < std::size(deviceTypes) && deviceTypes[place].value != type)
+        ++place;
+    return place;
 }
 
 DeviceInfo deviceInfoOf(VkInstance instance, VkPhysicalDevice handle, uint32_t index)
@@ -179,18 +182,7 @@ std::vector<ValidationMessage> MessageLog::take()
 
 const char* deviceTypeName(VkPhysicalDeviceType type)
 {
-    switch (type) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
-        return "discrete GPU";
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
-        return "integrated GPU";
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
-        return "virtual GPU";
-    case VK_PHYSICAL_DEVICE_TYPE_CPU:
-        return "CPU";
-    default:
-        return "other";
-    }
+    return deviceTypes[placeOf(type)].name;
 }
 
 VulkanInstance::VulkanInstance(Validation validation, Presentation presentation,
@@ -281,7 +273,7 @@ DeviceInfo chooseDevice(const std::vector<DeviceInfo>& devices, const std::strin
     }
     const DeviceInfo* best = nullptr;
     for (const DeviceInfo& d : devices)
-        if (d.missing.empty() && (!best || preference(d.type) < preference(best->type)))
+        if (d.missing.empty() && (!best || placeOf(d.type) < placeOf(best->type)))
             best = &d;
     if (!best)
         throw RunError("no Vulkan device is usable; " + devices[0].name +

@@ -203,10 +203,10 @@ CndLight lightAtTime(const Scene& scene, size_t light, double time);
 void lightsAtTime(const Scene& scene, double time, std::vector<CndLight>& out);
 
 // Positions of lights in files are in double precision, while CndLight has floats relative to
-// Scene::lightOrigin. Chooses that origin and sets the positions of scene.lights to `worldPositions`, which has
-// one position per light in metres. The origin is 0 if no coordinate of a light exceeds 1024 m,
-// where floats are 0.06 mm apart, else the centre of the positions' bounds. Lights that are
-// infinitely far away have no position and are left alone.
+// Scene::lightOrigin. Chooses that origin and sets the positions of scene.lights to
+// `worldPositions`, which has one position per light in metres. The origin is 0 if no coordinate of
+// a light exceeds 1024 m, where floats are 0.06 mm apart, else the centre of the positions' bounds.
+// Lights that are infinitely far away have no position and are left alone.
 void placeLights(Scene& scene, const std::vector<glm::dvec3>& worldPositions);
 
 } // namespace candelabra::app

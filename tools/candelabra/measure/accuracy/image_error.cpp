@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "candelabra/candelabra.hpp"
 #include "reference/eye_adaptation.h"
 #include "reference/tone_map.h"
 
@@ -115,8 +116,7 @@ ImageDifference imageDifference(const Image& image, const Image& truth)
 
 Displayed displayBoth(const Image& truth, const Image& value)
 {
-    CndExposureSettings settings{};
-    cndDefaultExposureSettings(&settings);
+    const CndExposureSettings settings = defaultExposureSettings();
     std::vector<float> rgba;
     for (size_t i = 0; i < truth.pixels.size(); i += 3)
         rgba.insert(rgba.end(), {truth.pixels[i], truth.pixels[i + 1], truth.pixels[i + 2], 1.0f});

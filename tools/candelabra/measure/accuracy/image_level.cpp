@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "candelabra/candelabra.hpp"
 #include "io/statistics.h"
 #include "io/svg_plot.h"
 #include "io/table.h"
@@ -29,11 +30,6 @@ struct Variants {
     std::vector<Image> images; // of the last timed frame
 };
 
-bool evaluatesLights(const char* kernel)
-{
-    return passName(kernel).starts_with("shade_");
-}
-
 // The times of one frame.
 struct DrawTimes {
     double lightingMs = 0, shadingMs = 0, bruteForceMs = 0;
@@ -47,10 +43,9 @@ DrawTimes drawOnce(const VulkanContext& context, Renderer& renderer, const Frame
     context.submitAndWait([&](VkCommandBuffer cmd) { renderer.record(cmd, 0, options); });
     const CndLightingStats stats = renderer.lightingStats(0);
     DrawTimes out;
-    for (uint32_t k = 0; k < stats.kernelTimeCount; ++k) {
-        const CndKernelTime& time = stats.kernelTimes[k];
-        out.lightingMs += time.ms;
-        out.shadingMs += evaluatesLights(time.name) ? time.ms : 0;
+    for (const PassTime& pass : passesOf({stats.kernelTimes, stats.kernelTimeCount})) {
+        out.lightingMs += pass.ms;
+        out.shadingMs += pass.name.starts_with("shade_") ? pass.ms : 0;
     }
     return out;
 }
@@ -104,13 +99,6 @@ Variants runVariants(const VulkanContext& context, Renderer& renderer,
                              medianOf(bruteForce[i]), isNoisy(bruteForce[i])});
     }
     return out;
-}
-
-FrameOptions frameOf(const Scene& scene)
-{
-    FrameOptions frame{.camera = selectCamera(scene, ""), .lightsVisible = false};
-    cndDefaultExposureSettings(&frame.exposure);
-    return frame;
 }
 
 void integrate(const Scene& scene, const ImageLevelSettings& s, Progress& progress, ImageScene& out)
@@ -194,9 +182,11 @@ std::vector<ImageScene> measureImages(const VulkanContext& context, const ImageL
         Renderer renderer(context, scene, {.size = s.size, .specularMethods = mask});
         std::vector<Draw> variants;
         for (const MeasuredMethod& method : methods) {
-            FrameOptions frame = frameOf(scene);
-            frame.specular = method.specular;
-            frame.sampleCount = s.sampleCount;
+            const FrameOptions frame{.camera = selectCamera(scene, ""),
+                                     .lightsVisible = false,
+                                     .specular = method.specular,
+                                     .sampleCount = s.sampleCount,
+                                     .exposure = defaultExposureSettings()};
             variants.push_back(method.rival == Rival::None
                                    ? drawByEngine(context, renderer, frame)
                                    : drawByRival(context, renderer, scene, frame));

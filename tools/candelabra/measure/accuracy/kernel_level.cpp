@@ -309,10 +309,9 @@ std::string kernelPlot(const KernelLevel& level, const DeviceInfo& device)
         const KernelPoint::Case* time = mainCase(p);
         if (!time || p.lightType == CND_LIGHT_DISTANT_SPHERE) // the same code as spheres
             continue;
-        series.push_back(
-            {.name = fmt::format("{} {}", lightTypeName(p.lightType), methodName(p.method)),
-             .points = {{time->both.medianNs, 100 * p.error.mirror.all.mean}},
-             .emphasised = p.lightType == CND_LIGHT_SPHERE});
+        series.push_back({.name = nameOf(p),
+                          .points = {{time->both.medianNs, 100 * p.error.mirror.all.mean}},
+                          .emphasised = p.lightType == CND_LIGHT_SPHERE});
     }
     return logLogPlot({.title = "Error against time of one light at one pixel",
                        .subtitle = device.name,

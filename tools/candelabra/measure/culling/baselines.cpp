@@ -402,11 +402,9 @@ std::vector<PassTime> Baselines::draw(Baseline baseline)
     });
     std::vector<CndKernelTime> times(CND_MAX_KERNEL_TIMES);
     uint32_t count = 0;
-    std::vector<PassTime> out;
-    if (timer_.read(0, times.data(), count) == CND_SUCCESS)
-        for (uint32_t i = 0; i < count; ++i)
-            out.push_back({passName(times[i].name), times[i].ms});
-    return out;
+    if (timer_.read(0, times.data(), count) != CND_SUCCESS)
+        count = 0;
+    return passesOf({times.data(), count});
 }
 
 } // namespace candelabra::app

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "candelabra/candelabra.hpp"
 #include "io/svg_plot.h"
 #include "io/table.h"
 #include "load/load.h"
@@ -36,21 +37,12 @@ bool isShadingPass(const std::string& pass)
            pass == "pair_visibility";
 }
 
-// Returns false for the kernel that fills a table which shading reads: it runs in the first frame
-// only.
-bool countsAsLighting(const std::string& pass)
+// Returns the passes but for the kernel that fills a table which shading reads: it runs in the
+// first frame only.
+std::vector<PassTime> lightingPasses(const CndLightingStats& stats)
 {
-    return pass != "dfg_table";
-}
-
-std::vector<PassTime> passesOf(const CndLightingStats& stats)
-{
-    std::vector<PassTime> out;
-    for (uint32_t i = 0; i < stats.kernelTimeCount; ++i) {
-        const std::string name = passName(stats.kernelTimes[i].name);
-        if (countsAsLighting(name))
-            out.push_back({name, stats.kernelTimes[i].ms});
-    }
+    std::vector<PassTime> out = passesOf({stats.kernelTimes, stats.kernelTimeCount});
+    std::erase_if(out, [](const PassTime& pass) { return pass.name == "dfg_table"; });
     return out;
 }
 
@@ -67,13 +59,6 @@ double largestDifference(const Image& image, const Image& reference)
     return largest > 0 ? double(difference) / double(largest) : 0;
 }
 
-FrameOptions frameOptions(const Scene& scene)
-{
-    FrameOptions out{.camera = selectCamera(scene, ""), .lightsVisible = false};
-    cndDefaultExposureSettings(&out.exposure);
-    return out;
-}
-
 // One configuration of scene and image size, ready to be lit in any way.
 class Frame
 {
@@ -81,7 +66,9 @@ public:
     Frame(const VulkanContext& context, const Scene& scene, PixelSize size, uint32_t shadows)
         : context_(context),
           scene_(scene),
-          options_(frameOptions(scene)),
+          options_({.camera = selectCamera(scene, ""),
+                    .lightsVisible = false,
+                    .exposure = defaultExposureSettings()}),
           shadowed_(options_),
           renderer_(
               context, scene,
@@ -124,7 +111,7 @@ public:
                 renderer_.recordBruteEnd(cmd);
             });
             double ms = 0;
-            for (const PassTime& pass : passesOf(renderer_.lightingStats(0)))
+            for (const PassTime& pass : lightingPasses(renderer_.lightingStats(0)))
                 ms += pass.name == "shade_brute" ? pass.ms : 0;
             return ms;
         };
@@ -142,7 +129,7 @@ private:
     std::vector<PassTime> draw(const FrameOptions& options)
     {
         context_.submitAndWait([&](VkCommandBuffer cmd) { renderer_.record(cmd, 0, options); });
-        return passesOf(renderer_.lightingStats(0));
+        return lightingPasses(renderer_.lightingStats(0));
     }
 
     const VulkanContext& context_;
@@ -229,9 +216,9 @@ CullingPoint measurePoint(const VulkanContext& context, const CullingSettings& s
     return point;
 }
 
-double ratio(uint64_t a, uint64_t b)
+double share(double a, double b)
 {
-    return b ? double(a) / double(b) : 0;
+    return b > 0 ? a / b : 0;
 }
 
 } // namespace
@@ -251,12 +238,12 @@ double Contender::shadingMs() const
 
 double Contender::contributingPerListed() const
 {
-    return ratio(contributingPairs, listedPairs);
+    return share(double(contributingPairs), double(listedPairs));
 }
 
 double Contender::contributingPerEvaluated() const
 {
-    return ratio(contributingPairs, evaluatedPairs);
+    return share(double(contributingPairs), double(evaluatedPairs));
 }
 
 bool Contender::hasRightImage() const
@@ -343,18 +330,13 @@ std::string titleOf(const CullingPoint& p)
     return fmt::format("{}, {}x{}, {} overlaps", p.scene, p.size.width, p.size.height, p.overlaps);
 }
 
-bool sameSweep(const CullingPoint& a, const CullingPoint& b)
-{
-    return titleOf(a) == titleOf(b);
-}
-
 // Groups the points by scene, size and overlaps, in the order in which these first appear.
 std::vector<std::vector<CullingPoint>> sweepsOf(const std::vector<CullingPoint>& points)
 {
     std::vector<std::vector<CullingPoint>> out;
     for (const CullingPoint& p : points) {
         const auto at = std::ranges::find_if(
-            out, [&](const auto& sweep) { return sameSweep(sweep.front(), p); });
+            out, [&](const auto& sweep) { return titleOf(sweep.front()) == titleOf(p); });
         if (at == out.end())
             out.push_back({p});
         else
@@ -406,11 +388,6 @@ Table timeTable(const std::vector<CullingPoint>& sweep)
                                "longer than --brute-limit allows; --brute-limit {:.0f} draws all.",
                                std::ceil(1.2e-3 * longest)));
     return table;
-}
-
-double share(double a, double b)
-{
-    return b > 0 ? a / b : 0;
 }
 
 struct Ratios {

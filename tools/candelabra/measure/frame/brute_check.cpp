@@ -90,9 +90,8 @@ double maxDifference(const Image& a, const Image& b, const VkRect2D& r)
 double shadingMs(const CndLightingStats& stats)
 {
     double ms = 0;
-    for (uint32_t i = 0; i < stats.kernelTimeCount; ++i)
-        if (passName(stats.kernelTimes[i].name) == "shade_brute")
-            ms += stats.kernelTimes[i].ms;
+    for (const PassTime& pass : passesOf({stats.kernelTimes, stats.kernelTimeCount}))
+        ms += pass.name == "shade_brute" ? pass.ms : 0;
     return ms;
 }
 

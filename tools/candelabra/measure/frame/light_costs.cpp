@@ -10,7 +10,6 @@
 
 #include "io/table.h"
 #include "measure/frame/surfaces.h"
-#include "render/frame_ring.h"
 #include "render/readback.h"
 #include "scene/light_types.h"
 
@@ -84,14 +83,10 @@ std::vector<glm::vec4> drawAndReadPairs(const VulkanContext& context, Renderer& 
 {
     frame.heatMap = HeatMap::Evaluated;
     frame.reuse = Reuse::None;
-    FrameRing ring(context, 1);
     // Draws again until all light lists fit, because pairs of missing lists are not counted.
-    do {
-        const auto [cmd, slot, reused] = ring.begin();
-        renderer.record(cmd, slot, frame);
-        ring.submit();
-        ring.wait();
-    } while (!renderer.fits(0));
+    do
+        context.submitAndWait([&](VkCommandBuffer cmd) { renderer.record(cmd, 0, frame); });
+    while (!renderer.fits(0));
     if (const uint32_t missing = renderer.lightingStats(0).unlistedClusters)
         spdlog::warn("warning: {} could not be made for lack of memory; the pairs of their pixels "
                      "are not counted",

@@ -18,7 +18,6 @@
 #include "reference/light.h"
 #include "reference/truth.h"
 #include "reference/visibility.h"
-#include "render/frame_ring.h"
 #include "render/readback.h"
 #include "scene/light_types.h"
 #include "truth/reference_scene.h"
@@ -204,13 +203,7 @@ Pick pickPixel(const VulkanContext& context, Renderer& renderer, const Scene& sc
     Pick out{.pixel = pixel};
     FrameOptions options = frame;
     options.reuse = Reuse::None;
-    {
-        FrameRing ring(context, 1);
-        const auto [cmd, slot, reused] = ring.begin();
-        renderer.record(cmd, slot, options);
-        ring.submit();
-        ring.wait();
-    }
+    context.submitAndWait([&](VkCommandBuffer cmd) { renderer.record(cmd, 0, options); });
     out.radiance = readPixel(context, renderer, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, pixel);
     context.submitAndWait([&](VkCommandBuffer cmd) { renderer.recordUnlit(cmd, options); });
     out.unlit = readPixel(context, renderer, VK_IMAGE_LAYOUT_GENERAL, pixel);

@@ -84,7 +84,7 @@ std::string variantOf(const PipelineRequest& request)
                            tileClass == gpu::CLASS_DIFFUSE ? ", diffuse lobe alone" : "");
     }
     if (request.kernel == "tone_map")
-        return toneMapName(CndToneMap(value("curve")));
+        return nameOf(CndToneMap(value("curve")), toneMapChoices);
     if (request.kernel == "emitter")
         return lightTypeName(value("shape"));
     std::string out;

@@ -296,13 +296,9 @@ std::vector<Table> stabilityTables(const Stability& stability)
     std::vector<Table> out{countTable(stability), quadratureTable(stability)};
     noteBadResponses(stability, out[0]);
     noteOverBar(stability, out[1]);
+    if (!stability.continuity.empty())
+        out.push_back(continuityTable(stability));
     return out;
-}
-
-std::vector<Table> stabilityDetails(const Stability& stability)
-{
-    return stability.continuity.empty() ? std::vector<Table>()
-                                        : std::vector<Table>{continuityTable(stability)};
 }
 
 Json stabilityJson(const StabilitySettings& settings, const Stability& stability)
