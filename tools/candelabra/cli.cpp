@@ -17,7 +17,6 @@
 
 #include "commands/commands.h"
 #include "commands/help.h"
-#include "commands/parser_messages.h"
 #include "io/error.h"
 #include "io/report.h"
 #include "io/suggestion.h"

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "commands/bench_commands.h"
+#include "commands/commands.h"
 #include "io/error.h"
 #include "io/report.h"
 

@@ -8,7 +8,7 @@
 #include <spdlog/spdlog.h>
 
 #include "candelabra/candelabra.hpp"
-#include "commands/bench_commands.h"
+#include "commands/commands.h"
 #include "commands/messages.h"
 #include "io/error.h"
 #include "io/progress.h"

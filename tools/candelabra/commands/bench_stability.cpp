@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include "commands/bench_commands.h"
+#include "commands/commands.h"
 #include "commands/messages.h"
 #include "io/error.h"
 #include "io/parse.h"

@@ -5,7 +5,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include "commands/bench_commands.h"
+#include "commands/commands.h"
 #include "commands/messages.h"
 #include "io/error.h"
 #include "io/image.h"

@@ -157,4 +157,7 @@ constexpr double maxWarmUpSeconds = 60;
 // The largest width and height of an image in pixels. It is the limit of the engine's modules.
 constexpr uint32_t maxSide = 16384;
 
+// Says what is wrong with arguments that `app` could not parse, in place of the messages of CLI11.
+std::string parserSentence(const CLI::App& app, const CLI::ParseError& error);
+
 } // namespace candelabra::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/parser_messages.h"
+#include "commands/options.h"
 
 #include <string_view>
 #include <vector>

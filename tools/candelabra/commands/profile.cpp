@@ -11,7 +11,6 @@
 
 #include "commands/commands.h"
 #include "commands/messages.h"
-#include "commands/parser_messages.h"
 #include "io/error.h"
 #include "io/progress.h"
 #include "io/statistics.h"

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include "commands/bench_commands.h"
+#include "commands/commands.h"
 #include "commands/messages.h"
 #include "generate/generators.h"
 #include "io/error.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Primitives that are compressed by Draco.
-#include "gltf/compression.h"
+#include "gltf/document.h"
 
 #include <algorithm>
 #include <optional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Buffer views that are compressed by the codecs of meshoptimizer.
-#include "gltf/compression.h"
+#include "gltf/document.h"
 
 #include <meshoptimizer.h>
 

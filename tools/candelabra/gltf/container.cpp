@@ -7,8 +7,6 @@
 #include <cstring>
 #include <filesystem>
 
-#include "gltf/compression.h"
-#include "gltf/extensions.h"
 #include "scene/scene_file.h"
 
 namespace candelabra::app

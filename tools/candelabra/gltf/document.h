@@ -84,6 +84,25 @@ GltfContainer readGltfContainer(const std::string& path);
 // (check.cpp), and warns of content that is not used. Sets document.used and document.lostMesh.
 void repairGltfJson(GltfDocument& document);
 
+// Warns of the extensions that the file uses and of which the loader reads nothing or only a part,
+// with a hint where one helps. Returns the extensions that the file calls required and of which the
+// loader reads nothing, as one phrase for a message, or "" if there are none. Throws SceneError if
+// the lists of extensions are no lists of names.
+std::string checkGltfExtensions(const std::string& file, const nlohmann::json& json,
+                                LoadWarnings& warnings);
+
+// Decompress geometry, so that all that follows finds it in plain buffers. They fail if data is
+// broken, or if it claims to be larger than what its compressed size allows: memory is allocated
+// only after that has been checked.
+//
+// Decompresses the buffer views that have EXT_meshopt_compression, or KHR_meshopt_compression with
+// data of the same version. The views then lie in buffers of their own.
+void decompressMeshopt(GltfDocument& document);
+
+// Decompresses the primitives that have KHR_draco_mesh_compression, and gives them accessors of
+// their own.
+void decompressDraco(GltfDocument& document);
+
 // Reads what a "uri" stands for: base64 data, or a file in the folder of document.file or below
 // that folder. Absolute paths, "..", and schemes other than data: are errors.
 std::vector<uint8_t> readGltfUri(const GltfDocument& document, const std::string& uri,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/emissive.h"
+#include "gltf/lights.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/extensions.h"
+#include "gltf/document.h"
 
 #include <algorithm>
 #include <array>
@@ -15,6 +15,7 @@ namespace candelabra::app
 namespace
 {
 
+// The extensions that the loader reads wholly.
 constexpr std::array<std::string_view, 16> wholeExtensions = {
     "EXT_mesh_gpu_instancing", "EXT_meshopt_compression", "EXT_texture_webp",
     "KHR_draco_mesh_compression", "KHR_lights_area", "KHR_lights_punctual",

@@ -9,7 +9,6 @@
 #include <tuple>
 
 #include "gltf/document.h"
-#include "gltf/emissive.h"
 #include "gltf/gltf.h"
 #include "gltf/lights.h"
 #include "gltf/material.h"

@@ -9,6 +9,7 @@
 
 #include "gltf/document.h"
 #include "gltf/nodes.h"
+#include "scene/scene.h"
 #include "scene/scene_options.h"
 
 namespace candelabra::app
@@ -44,5 +45,23 @@ void addGltfLights(const GltfDocument& document, const GltfPlacedNode& placed,
 // shadow the lights in them. Shades that do not emit stay what they are. `positions`: of the
 // scene's lights, in world space.
 void findLampBodies(Scene& scene, const std::vector<glm::dvec3>& positions);
+
+// Turns surfaces that emit light into area lights.
+class GltfEmissiveRectangles
+{
+public:
+    // If an instance of the mesh is a flat rectangle and its material emits, adds a rectangle light
+    // of the same luminance, which shines to both sides if the material is double-sided, and
+    // returns true: the light takes the place of the instance. Rectangles may consist of any number
+    // of triangles. Emissive instances of other shapes, and those with a texture of their emission,
+    // stay what they are.
+    bool replace(const Mesh& mesh, const Material& material, const glm::dmat4& worldFromObject,
+                 GltfLights& out);
+    // Warns of emissive instances that replace() has left as they are.
+    void warn(const GltfDocument& document) const;
+
+private:
+    size_t others_ = 0, textured_ = 0;
+};
 
 } // namespace candelabra::app

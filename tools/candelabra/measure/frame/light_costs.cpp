@@ -10,6 +10,7 @@
 
 #include "io/table.h"
 #include "measure/frame/surfaces.h"
+#include "reference/vectors.h"
 #include "render/readback.h"
 #include "scene/light_types.h"
 
@@ -20,11 +21,6 @@ namespace
 
 constexpr uint32_t costTile = 8; // pixels a side, like a workgroup of shade_tiles
 constexpr double everywhere = std::numeric_limits<double>::infinity();
-
-glm::dvec3 vec(const float (&v)[3])
-{
-    return {v[0], v[1], v[2]};
-}
 
 // The members of a light that decide which surfaces it can light.
 struct LightVolume {
@@ -55,14 +51,14 @@ LightVolume volumeOf(uint32_t index, const CndLight& l, const glm::dvec3& origin
                     .boundingRadius = double(cndEmitterBoundingRadius(&l)),
                     .distant = cndIsDistant(l.type) != 0};
     if (!out.distant) {
-        out.centre = origin + vec(l.position);
+        out.centre = origin + reference::vec3(l.position);
         out.influenceRadius = l.influenceRadius;
     }
     const bool bothSides = fields & CND_LIGHT_FIELD_TWO_SIDED_BIT && l.twoSided;
     if (fields & CND_LIGHT_FIELD_DIRECTION_BIT && !bothSides)
-        out.axis = glm::normalize(vec(l.direction));
+        out.axis = glm::normalize(reference::vec3(l.direction));
     else if (fields & CND_LIGHT_FIELD_AXIS_V_BIT && !bothSides)
-        out.axis = glm::normalize(glm::cross(vec(l.axisU), vec(l.axisV)));
+        out.axis = glm::normalize(glm::cross(reference::vec3(l.axisU), reference::vec3(l.axisV)));
     if (fields & CND_LIGHT_FIELD_CONE_BIT)
         out.cosOuter = std::cos(double(l.outerConeAngle));
     return out;

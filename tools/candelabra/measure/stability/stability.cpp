@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "candelabra/glm.hpp"
 #include "io/table.h"
 #include "measure/kernels/parallel.h"
 #include "reference/truth.h"
+#include "reference/vectors.h"
 #include "render/setting_names.h"
 #include "scene/light_types.h"
 #include "shading/light_family.h"
@@ -73,7 +73,7 @@ Compared compareWithTruth(const gpu::SweepRecord& r, const Evaluation& evaluatio
     const float rounded = r.perceptualRoughness * r.perceptualRoughness;
     const double alpha = std::max(double(rounded), double(gpu::MIN_ALPHA));
     const CndLight light = lightOf(r, evaluation.lightType);
-    const glm::dvec3 to(toGlm(light.position));
+    const glm::dvec3 to = reference::vec3(light.position);
     const bool distant = cndIsDistant(evaluation.lightType);
     if (!distant && !(glm::length(to) > 0))
         return {};
