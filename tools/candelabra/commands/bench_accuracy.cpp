@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // candelabra bench accuracy: measures the error and the time of every specular method.
 #include <algorithm>
-#include <memory>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -106,13 +105,11 @@ void addBenchAccuracy(CLI::App& bench, Run& run)
 {
     CLI::App* command = bench.add_subcommand(
         "accuracy", "Measure the error of every specular method against quadrature, and its time");
-    const auto a = std::make_shared<AccuracyArguments>();
+    const auto a = argumentsOf(*command, run, accuracy);
     addOptions(*command, *a);
     command->footer("Examples:\n"
                     "  candelabra bench accuracy\n"
                     "  candelabra bench accuracy --groups 1500 --rounds 51 --frames 15");
-    command->callback(
-        [&run, a] { run = [a](const ProgramContext& program) { return accuracy(program, *a); }; });
 }
 
 } // namespace candelabra::app

@@ -3,7 +3,6 @@
 // and with other ways to cull.
 #include <algorithm>
 #include <filesystem>
-#include <memory>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -86,7 +85,7 @@ void addBenchCulling(CLI::App& bench, Run& run)
     CLI::App* command =
         bench.add_subcommand("culling", "Compare the engine's times and light lists with 2D tiles, "
                                         "froxels, brute force and no culling");
-    const auto a = std::make_shared<CullingArguments>();
+    const auto a = argumentsOf(*command, run, culling);
     addOption(*command, "--scenes", a->scenes, "NAME,...", "generated scenes to draw");
     addOption(*command, "--lights", a->lights, "N,N,...", "numbers of lights, up to 1,000,000");
     addOption(*command, "--overlaps", a->overlaps, "K,K,...",
@@ -118,8 +117,6 @@ void addBenchCulling(CLI::App& bench, Run& run)
         "  candelabra bench culling\n"
         "  candelabra bench culling --scenes hall --lights 4000 --overlaps 30 --rounds 15\n"
         "  candelabra bench culling --lights 256000,1000000 --overlaps 8 --size 1920x1080");
-    command->callback(
-        [&run, a] { run = [a](const ProgramContext& program) { return culling(program, *a); }; });
 }
 
 } // namespace candelabra::app

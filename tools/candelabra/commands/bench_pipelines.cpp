@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // candelabra bench pipelines: prints what the driver's compiler says about the engine's pipelines.
-#include <memory>
 
 #include <fmt/format.h>
 
@@ -63,7 +62,7 @@ void addBenchPipelines(CLI::App& bench, Run& run)
     CLI::App* command = bench.add_subcommand(
         "pipelines",
         "List the registers, spills and size of every pipeline, as the driver reports them");
-    const auto a = std::make_shared<PipelineArguments>();
+    const auto a = argumentsOf(*command, run, pipelines);
     addOption(*command, "--kernels", a->kernels, "NAME,...",
               "compile these kernels only, such as shade_tiles,cluster_lists");
     addOption(*command, "--types", a->types, "NAME,...",
@@ -93,8 +92,6 @@ void addBenchPipelines(CLI::App& bench, Run& run)
         "Examples:\n"
         "  candelabra bench pipelines\n"
         "  candelabra bench pipelines --kernels shade_tiles --types sphere --methods conic");
-    command->callback(
-        [&run, a] { run = [a](const ProgramContext& program) { return pipelines(program, *a); }; });
 }
 
 } // namespace candelabra::app

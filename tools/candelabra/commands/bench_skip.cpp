@@ -2,7 +2,6 @@
 // candelabra bench skip: measures what a frame saves by leaving out what its content does not need.
 // Pairs of frames are compared as candelabra profile --ab compares them.
 #include <functional>
-#include <memory>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -146,7 +145,7 @@ void addBenchSkip(CLI::App& bench, Run& run)
 {
     CLI::App* command = bench.add_subcommand(
         "skip", "Measure what a frame saves by skipping what its content does not need");
-    const auto a = std::make_shared<SkipArguments>();
+    const auto a = argumentsOf(*command, run, skip);
     addOption(*command, "--scene", a->scene, "NAME", "scene to draw");
     addOption(*command, "--lights", a->lights, "N", "number of sphere lights, up to 1,000,000");
     addOption(*command, "--size", a->size, "WxH", "image size");
@@ -160,8 +159,6 @@ void addBenchSkip(CLI::App& bench, Run& run)
         "differ.\n\n"
         "Example:\n"
         "  candelabra bench skip --scene field --lights 16000");
-    command->callback(
-        [&run, a] { run = [a](const ProgramContext& program) { return skip(program, *a); }; });
 }
 
 } // namespace candelabra::app

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // candelabra bench stability: tries the shader functions on random and adversarial inputs.
-#include <memory>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -69,7 +68,7 @@ void addBenchStability(CLI::App& bench, Run& run)
     CLI::App* command = bench.add_subcommand(
         "stability",
         "Try random and adversarial inputs, count invalid responses, and measure errors and jumps");
-    const auto a = std::make_shared<StabilityArguments>();
+    const auto a = argumentsOf(*command, run, stability);
     addOption(*command, "--configs", a->configurations, "N",
               "total number of configurations; 1e8 take minutes on two CPU cores");
     addOption(*command, "--quadrature", a->quadrature, "N",
@@ -93,8 +92,6 @@ void addBenchStability(CLI::App& bench, Run& run)
         "  candelabra bench stability --configs 1e10 --quadrature 1000000\n"
         "  candelabra bench stability --light-types tube,rectangle --specular conic\n"
         "  candelabra bench stability --inexact-division --seed 2");
-    command->callback(
-        [&run, a] { run = [a](const ProgramContext& program) { return stability(program, *a); }; });
 }
 
 } // namespace candelabra::app

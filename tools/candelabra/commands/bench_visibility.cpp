@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // candelabra bench visibility: measures what soft shadows cost and how exact they are.
 #include <algorithm>
-#include <memory>
 
 #include <spdlog/spdlog.h>
 
@@ -103,7 +102,7 @@ void addBenchVisibility(CLI::App& bench, Run& run)
 {
     CLI::App* command = bench.add_subcommand(
         "visibility", "Measure what soft shadows cost, and their error beside that of rays");
-    const auto a = std::make_shared<VisibilityArguments>();
+    const auto a = argumentsOf(*command, run, visibility);
     a->scene.addTo(*command);
     a->scene.addLightsTo(*command);
     addChoice(*command, "--shadows", a->shadows, shadowChoices,
@@ -130,9 +129,6 @@ void addBenchVisibility(CLI::App& bench, Run& run)
         "Emitters are not drawn.\n\n"
         "Example:\n"
         "  candelabra bench visibility rooms --size 320x180 --pixels 200");
-    command->callback([&run, a] {
-        run = [a](const ProgramContext& program) { return visibility(program, *a); };
-    });
 }
 
 } // namespace candelabra::app

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
 #include <CLI/CLI.hpp>
 
@@ -13,6 +14,19 @@ namespace candelabra::app
 {
 
 using Run = std::function<int(const ProgramContext&)>;
+
+// Makes the arguments of a command, and sets `run` to work(program, arguments) if the user chooses
+// the command.
+template <typename Arguments>
+std::shared_ptr<Arguments> argumentsOf(CLI::App& command, Run& run,
+                                       int (*work)(const ProgramContext&, const Arguments&))
+{
+    const auto a = std::make_shared<Arguments>();
+    command.callback([&run, a, work] {
+        run = [a, work](const ProgramContext& program) { return work(program, *a); };
+    });
+    return a;
+}
 
 void addBenchCommand(CLI::App& app, Run& run);
 void addCompareCommand(CLI::App& app, Run& run);

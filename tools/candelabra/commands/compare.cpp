@@ -3,7 +3,6 @@
 // before and after a change, is slower.
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -374,7 +373,7 @@ void addCompareCommand(CLI::App& app, Run& run)
 {
     CLI::App* command = app.add_subcommand(
         "compare", "Test whether the second of two sets of profile runs is slower");
-    const auto a = std::make_shared<CompareArguments>();
+    const auto a = argumentsOf(*command, run, compare);
     command->add_option("A", a->fileA,
                         "runs before a change, in a file written by profile --json --append");
     command->add_option("B", a->fileB, "runs after the change, in such a file")->needs("A");
@@ -420,8 +419,6 @@ void addCompareCommand(CLI::App& app, Run& run)
         "  done\n"
         "  candelabra compare a.json b.json --fail-above 2\n"
         "  candelabra compare --a before*.json --b after*.json --json -");
-    command->callback(
-        [&run, a] { run = [a](const ProgramContext& program) { return compare(program, *a); }; });
 }
 
 } // namespace candelabra::app

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // candelabra diff: says whether a picture is the same as another one, and how much it differs.
 #include <cmath>
-#include <memory>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -204,7 +203,7 @@ void addDiffCommand(CLI::App& app, Run& run)
 {
     CLI::App* command =
         app.add_subcommand("diff", "Say whether a picture is the same as another one");
-    const auto a = std::make_shared<DiffArguments>();
+    const auto a = argumentsOf(*command, run, diff);
     command->add_option("A", a->a, "the picture to test: .png, or linear .exr, .hdr or .pfm")
         ->required();
     command->add_option("B", a->b, "the picture that it should be, of the same kind")->required();
@@ -228,8 +227,6 @@ void addDiffCommand(CLI::App& app, Run& run)
         "Examples:\n"
         "  candelabra diff new.png old.png\n"
         "  candelabra diff hall.exr reference/hall.exr --max-relmse 1e-6 -o heat.png");
-    command->callback(
-        [&run, a] { run = [a](const ProgramContext& program) { return diff(program, *a); }; });
 }
 
 } // namespace candelabra::app

@@ -140,27 +140,6 @@ void DeviceArguments::requireRoomFor(uint32_t lights) const
                                      chosen.name, grouped(most)));
 }
 
-void LobeArguments::addTo(CLI::App& command)
-{
-    const OptionGroup group(command, lightingGroup);
-    addChoice(command, "--lobes", lobes, lobeChoices,
-              "how the diffuse and specular lobes of a material share the light (default: sum for "
-              "scene .json files without a source, else conserving)");
-    addChoice(command, "--energy-compensation", energyCompensation, onOffChoices,
-              "add the light that bounces between microfacets and that the specular lobe loses, "
-              "without which rough metal looks dark (default: on for glTF files and for scene "
-              ".json files whose source is a glTF file, else off)");
-}
-
-void LobeArguments::applyTo(SceneOptions& options) const
-{
-    if (!lobes.empty())
-        options.lobes = choose("--lobes", lobes, lobeChoices);
-    if (!energyCompensation.empty())
-        options.energyCompensation =
-            choose("--energy-compensation", energyCompensation, onOffChoices);
-}
-
 void SceneArguments::addTo(CLI::App& command, const std::string& fallback)
 {
     scene = fallback;
@@ -200,7 +179,14 @@ void SceneArguments::addOptionsTo(CLI::App& command)
     addOption(command, "--environment-illuminance", environmentIlluminance, "LX",
               "scale the environment to give level ground this illuminance; a clear sky without "
               "the sun gives about 15,000 lx, a full moon 0.2 lx");
-    lobes.addTo(command);
+    const OptionGroup lighting(command, lightingGroup);
+    addChoice(command, "--lobes", lobes, lobeChoices,
+              "how the diffuse and specular lobes of a material share the light (default: sum for "
+              "scene .json files without a source, else conserving)");
+    addChoice(command, "--energy-compensation", energyCompensation, onOffChoices,
+              "add the light that bounces between microfacets and that the specular lobe loses, "
+              "without which rough metal looks dark (default: on for glTF files and for scene "
+              ".json files whose source is a glTF file, else off)");
 }
 
 void SceneArguments::addDefaultLightTo(CLI::App& command)
@@ -243,7 +229,10 @@ SceneOptions SceneArguments::options(std::optional<uint32_t> lights) const
         out.sunRadius = numberOption("--sun-radius", sunRadius, 1e-6, 1);
     out.emissiveLights = emissiveLights;
     out.environment = environment;
-    lobes.applyTo(out);
+    if (!lobes.empty())
+        out.lobes = choose("--lobes", lobes, lobeChoices);
+    if (!energyCompensation.empty())
+        out.energyCompensation = choose("--energy-compensation", energyCompensation, onOffChoices);
     if (!environmentRotation.empty())
         out.environmentRotation =
             numberOption("--environment-rotation", environmentRotation, -360, 360) *

@@ -44,15 +44,6 @@ struct DeviceArguments {
     void requireRoomFor(uint32_t lights) const;
 };
 
-// The way in which the diffuse and the specular lobe of a material share the light.
-struct LobeArguments {
-    std::string lobes;
-    std::string energyCompensation;
-
-    void addTo(CLI::App& command);
-    void applyTo(SceneOptions& options) const; // throws UsageError
-};
-
 // SCENE and the options that shape it. The number of lights is not among them, because `render`
 // takes one number and `stress` a list.
 struct SceneArguments {
@@ -60,7 +51,7 @@ struct SceneArguments {
     std::string seed, overlaps, punctualRadius, sunRadius;
     std::string environment, environmentRotation, environmentScale, environmentIlluminance;
     std::string defaultLight; // empty: off, for commands without the option
-    LobeArguments lobes;
+    std::string lobes, energyCompensation;
     bool moving = false, emissiveLights = false;
 
     // With a `fallback`, which is the default scene, SCENE may be left out, or be named with

@@ -2,7 +2,6 @@
 // candelabra profile: measures the time of every pass of a frame, and whether one way of drawing it
 // is faster than another.
 #include <algorithm>
-#include <memory>
 #include <numeric>
 #include <optional>
 
@@ -338,7 +337,7 @@ void addProfileCommand(CLI::App& app, Run& run)
 {
     CLI::App* command =
         app.add_subcommand("profile", "Time every pass of a frame, or compare two ways to draw it");
-    const auto a = std::make_shared<ProfileArguments>();
+    const auto a = argumentsOf(*command, run, profile);
     a->scene.addTo(*command);
     a->scene.addLightsTo(*command);
     addOption(*command, "--frames", a->frames, "N",
@@ -385,8 +384,6 @@ void addProfileCommand(CLI::App& app, Run& run)
         "  candelabra profile hall --light-costs 20 --what-if influence=0.5\n"
         "  candelabra profile hall --ab '--specular karis' '--specular conic'\n"
         "  candelabra profile rooms --ab '--shadows off' '--shadows 64'");
-    command->callback(
-        [&run, a] { run = [a](const ProgramContext& program) { return profile(program, *a); }; });
 }
 
 } // namespace candelabra::app

@@ -362,7 +362,7 @@ void addReportCommand(CLI::App& app, Run& run)
     CLI::App* command = app.add_subcommand(
         "report",
         "Run short forms of the main measurements, and write one HTML page of the results");
-    const auto a = std::make_shared<ReportArguments>();
+    const auto a = argumentsOf(*command, run, report);
     addOption(*command, "--out", a->directory, "DIR", "directory for index.html and report.json");
     addOption(*command, "--parts", a->parts, "NAME,...", "parts to measure, in this order");
     addOption(*command, "--lights", a->lights, "N", "number of lights in the profiled frame");
@@ -378,8 +378,6 @@ void addReportCommand(CLI::App& app, Run& run)
         "Examples:\n"
         "  candelabra report\n"
         "  candelabra report --parts profile,culling --lights 16000 --out out/culling");
-    command->callback(
-        [&run, a] { run = [a](const ProgramContext& program) { return report(program, *a); }; });
 }
 
 } // namespace candelabra::app

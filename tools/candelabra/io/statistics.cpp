@@ -85,19 +85,6 @@ bool isNoisy(const std::vector<double>& values)
     return s.upperQuartile - s.lowerQuartile > noisyShare * s.median;
 }
 
-MedianInterval medianInterval(std::vector<double> values)
-{
-    std::ranges::sort(values);
-    // For more than 1,000 values 0.5^n may underflow; the binomial distribution of the rank is then
-    // close to a normal one.
-    const size_t n = values.size();
-    const size_t k = n <= 1000 ? intervalRank(n)
-                               : size_t(double(n) / 2 - 0.98 * std::sqrt(double(n))); // 1.96 / 2
-    if (n < minPairs || !k)
-        return {middleOf(values), 0, std::numeric_limits<double>::infinity()};
-    return {middleOf(values), values[k - 1], values[n - k]};
-}
-
 PairedRatio pairedRatio(std::span<const double> a, std::span<const double> b)
 {
     std::vector<double> ratios;
@@ -105,8 +92,16 @@ PairedRatio pairedRatio(std::span<const double> a, std::span<const double> b)
         if (a[i] > 0)
             ratios.push_back(b[i] / a[i]);
     if (ratios.empty())
-        return {{1, 0, std::numeric_limits<double>::infinity()}};
-    return {medianInterval(std::move(ratios))};
+        return {1, 0, std::numeric_limits<double>::infinity()};
+    std::ranges::sort(ratios);
+    // For more than 1,000 values 0.5^n may underflow; the binomial distribution of the rank is then
+    // close to a normal one.
+    const size_t n = ratios.size();
+    const size_t k = n <= 1000 ? intervalRank(n)
+                               : size_t(double(n) / 2 - 0.98 * std::sqrt(double(n))); // 1.96 / 2
+    if (n < minPairs || !k)
+        return {middleOf(ratios), 0, std::numeric_limits<double>::infinity()};
+    return {middleOf(ratios), ratios[k - 1], ratios[n - k]};
 }
 
 } // namespace candelabra::app

@@ -34,20 +34,13 @@ std::vector<double> differences(std::span<const double> a, std::span<const doubl
 constexpr double noisyShare = 0.05;
 bool isNoisy(const std::vector<double>& values);
 
-// A median, and an interval that holds the true median with at least 95% confidence, whatever the
-// distribution (order statistics; Conover 1999, section 3.2). The interval is [0, infinity] if
-// there are fewer than minPairs values.
-struct MedianInterval {
+// The median of the ratios b / a of paired measurements, and an interval that holds the true median
+// with at least 95% confidence, whatever the distribution (order statistics; Conover 1999, section
+// 3.2). The interval is [0, infinity] if there are fewer than minPairs values.
+struct PairedRatio {
     double median = 0, low = 0, high = 0;
 
     bool isKnown() const { return low > 0 || high < std::numeric_limits<double>::infinity(); }
-};
-// `values` must be at least 0 and not empty.
-MedianInterval medianInterval(std::vector<double> values);
-
-// The ratio b / a of paired measurements.
-struct PairedRatio : MedianInterval {
-
     bool isFaster() const { return high < 1; }
     bool isSlower() const { return low > 1; }
 };

@@ -276,7 +276,7 @@ PairedRatio CullingPoint::toEngine(const std::string& name) const
         return pairedRatio(engine, other);
     // A frame that was drawn only once has a ratio, but no interval.
     const double ratio = other.empty() ? 1 : medianOf(other) / medianOf(engine);
-    return {{ratio, 0, std::numeric_limits<double>::infinity()}};
+    return {ratio, 0, std::numeric_limits<double>::infinity()};
 }
 
 double cullingSteps(const CullingSettings& s)
