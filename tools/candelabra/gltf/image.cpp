@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/image.h"
+#include "gltf/material.h"
 
 #include <cstring>
 #include <limits>

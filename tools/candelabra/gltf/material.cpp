@@ -9,7 +9,6 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
-#include "gltf/image.h"
 #include "scene/scene_error.h"
 #include "scene/scene_file.h"
 

@@ -3,6 +3,10 @@
 // SceneError.
 #pragma once
 
+#include <cstdint>
+#include <span>
+#include <string>
+
 #include "gltf/document.h"
 #include "scene/scene.h"
 
@@ -19,5 +23,13 @@ uint32_t readGltfMaterials(const GltfDocument& document, Scene& scene);
 // glass and so Material::alphaMode is AlphaMode::Blend. A material of -1 is the default material,
 // which is opaque.
 bool isGltfAlphaUsed(const GltfDocument& document, int material);
+
+// All textures of a scene together may have 2 GiB: a few kilobytes of PNG can unpack to a gigabyte.
+constexpr uint64_t maxGltfTexels = uint64_t{1} << 29;
+
+// Decodes a PNG, JPEG or WebP image of at most 16384 pixels a side and `texelsLeft` pixels. Throws
+// SceneError that names `element`.
+Texture decodeGltfImage(const GltfDocument& document, const std::string& element,
+                        std::span<const uint8_t> bytes, uint64_t texelsLeft);
 
 } // namespace candelabra::app

@@ -9,7 +9,7 @@
 #include "io/progress.h"
 #include "io/table.h"
 #include "measure/accuracy/image_error.h"
-#include "measure/kernels/methods.h"
+#include "measure/kernels/light_kernels.h"
 #include "render/renderer.h"
 #include "scene/scene_error.h"
 

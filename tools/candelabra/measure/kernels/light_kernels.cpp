@@ -8,6 +8,7 @@
 
 #include "candelabra_bench_shaders.h"
 #include "lights/pack_lights.h"
+#include "render/setting_names.h"
 #include "shading/light_family.h"
 #include "shared/ltc.h"
 
@@ -44,6 +45,37 @@ void addCorners(std::vector<gpu::LightShape>& shapes, size_t i, const CndLight& 
 constexpr size_t maxBatch = size_t(1) << 18;
 
 } // namespace
+
+std::string methodName(const MeasuredMethod& method)
+{
+    return method.rival == Rival::Ltc ? "ltc" : specularName(method.specular);
+}
+
+std::vector<CndSpecularMethod> methodsOf(uint32_t lightType)
+{
+    std::vector<CndSpecularMethod> out;
+    for (const Choice<CndSpecularMethod>& choice : specularChoices)
+        if (choice.value != CND_SPECULAR_NONE &&
+            lighting::canonicalMethod(lightType, choice.value) == choice.value)
+            out.push_back(choice.value);
+    return out;
+}
+
+bool rivalKnows(uint32_t lightType)
+{
+    return lighting::isSphere(lightType) || lightType == CND_LIGHT_RECTANGLE ||
+           lightType == CND_LIGHT_POLYGON;
+}
+
+std::vector<MeasuredMethod> comparedMethods(uint32_t lightType)
+{
+    std::vector<MeasuredMethod> out;
+    for (const CndSpecularMethod method : methodsOf(lightType))
+        out.push_back(method);
+    if (rivalKnows(lightType))
+        out.push_back(Rival::Ltc);
+    return out;
+}
 
 const gpu::Spirv& ofFamily(std::span<const gpu::Spirv* const> families,
                            const Evaluation& evaluation)
