@@ -36,19 +36,20 @@ TEST_F(BenchCulling, EveryWayGivesTheImageOfBruteForce)
             const Contender& c = p.of(name);
             ASSERT_FALSE(c.skippedMs);
             ASSERT_TRUE(c.difference) << name;
-            std::cout << p.scene << ", " << name << ": " << *c.difference << ", " << c.listedPairs
-                      << " listed for " << c.contributingPairs << "\n";
+            std::cout << p.scene << ", " << name << ": " << *c.difference << ", "
+                      << c.stats.listedPairs << " listed for " << c.stats.contributingPairs << "\n";
             EXPECT_LE(*c.difference, 1e-6) << p.scene << " " << name;
             EXPECT_EQ(c.times.frames(), 1u) << name;
             if (name == bruteName)
                 continue;
             // All ways find the same contributing lights, even if their lists hold more lights.
-            EXPECT_EQ(c.contributingPairs, engine.contributingPairs) << p.scene << " " << name;
-            EXPECT_EQ(c.insidePairs >= c.contributingPairs, true) << name;
-            EXPECT_GE(c.listedPairs, c.insidePairs) << name;
-            EXPECT_GT(c.listEntries, 0u) << name;
+            EXPECT_EQ(c.stats.contributingPairs, engine.stats.contributingPairs)
+                << p.scene << " " << name;
+            EXPECT_EQ(c.stats.insidePairs >= c.stats.contributingPairs, true) << name;
+            EXPECT_GE(c.stats.listedPairs, c.stats.insidePairs) << name;
+            EXPECT_GT(c.stats.listEntries, 0u) << name;
         }
-        EXPECT_LE(engine.listedPairs, p.of(tilesName).listedPairs) << p.scene;
+        EXPECT_LE(engine.stats.listedPairs, p.of(tilesName).stats.listedPairs) << p.scene;
         EXPECT_GT(p.of(floorName).totalMs(), 0) << p.scene;
     }
     EXPECT_EQ(cullingFailures(points).size(), 0u);
@@ -76,7 +77,7 @@ TEST_F(BenchCulling, EveryWayFindsAllOfManyLights)
     for (const char* name : {tilesName, froxelsName}) {
         const Contender& c = points[0].of(name);
         EXPECT_LE(c.difference.value_or(1), Contender::reorderedBound) << name;
-        EXPECT_EQ(c.contributingPairs, engine.contributingPairs) << name;
+        EXPECT_EQ(c.stats.contributingPairs, engine.stats.contributingPairs) << name;
     }
 
     // A baseline that draws another image does not count.
@@ -128,7 +129,7 @@ TEST_F(BenchCulling, TheFrameWithShadowsIsOneMore)
     const Contender& shadowed = points.at(0).of(shadowedName);
     EXPECT_EQ(shadowed.times.frames(), 2u);
     EXPECT_GT(shadowed.shadingMs(), points[0].of(engineName).shadingMs());
-    EXPECT_EQ(shadowed.listedPairs, points[0].of(engineName).listedPairs);
+    EXPECT_EQ(shadowed.stats.listedPairs, points[0].of(engineName).stats.listedPairs);
     EXPECT_FALSE(shadowed.difference);
     EXPECT_TRUE(cullingFailures(points).empty()); // the other ways have the unshadowed image
     EXPECT_EQ(cullingJson(settings, points)["shadows"], "32");

@@ -298,7 +298,7 @@ void Baselines::countPairs(Baseline baseline)
         kernels_.pairs[i].dispatch(f, sets_.pairs[i].set(0), {}, groups().x, groups().y);
     });
     const gpu::BaselineCounters c = counters(baseline);
-    BaselineStats& stats = lists_[i].stats;
+    CullingStats& stats = lists_[i].stats;
     stats.listedPairs = join(c.listedPairs);
     stats.evaluatedPairs = join(c.evaluatedPairs);
     stats.insidePairs = join(c.insidePairs);

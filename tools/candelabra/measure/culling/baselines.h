@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gpu/kernel.h"
+#include "measure/culling/culling.h"
 #include "render/renderer.h"
 #include "shared/baselines.h"
 #include "surfaces/frame_uniforms.h"
@@ -18,11 +19,6 @@ namespace candelabra::app
 {
 
 enum class Baseline { Tiles, Froxels, Floor };
-
-struct BaselineStats {
-    uint64_t listEntries = 0, listBytes = 0;
-    uint64_t listedPairs = 0, evaluatedPairs = 0, insidePairs = 0, contributingPairs = 0;
-};
 
 class Baselines
 {
@@ -37,7 +33,7 @@ public:
     // Renderer::record.
     std::vector<PassTime> draw(Baseline baseline);
     // The statistics of the lists of Baseline::Tiles or Baseline::Froxels.
-    BaselineStats stats(Baseline baseline) const { return lists_[size_t(baseline)].stats; }
+    CullingStats stats(Baseline baseline) const { return lists_[size_t(baseline)].stats; }
 
 private:
     struct Kernels {
@@ -51,7 +47,7 @@ private:
     };
     struct Lists {
         gpu::Buffer heads, entries, counters, grid;
-        BaselineStats stats;
+        CullingStats stats;
     };
     void createLights(const Scene& scene);
     void createFroxels();

@@ -123,7 +123,7 @@ public:
     {
         return app::countPairs(context_, renderer_, shadowed_);
     }
-    BaselineStats statsOf(Baseline b) const { return baselines_.stats(b); }
+    CullingStats statsOf(Baseline b) const { return baselines_.stats(b); }
 
 private:
     std::vector<PassTime> draw(const FrameOptions& options)
@@ -140,29 +140,15 @@ private:
     Image image_;
 };
 
-Contender withStats(const char* name, const BaselineStats& s)
+CullingStats engineStats(const CndLightingStats& s)
 {
-    Contender c{.name = name};
-    c.listEntries = s.listEntries;
-    c.listBytes = s.listBytes;
-    c.listedPairs = s.listedPairs;
-    c.evaluatedPairs = s.evaluatedPairs;
-    c.insidePairs = s.insidePairs;
-    c.contributingPairs = s.contributingPairs;
-    return c;
-}
-
-Contender engineContender(const char* name, const CndLightingStats& s)
-{
-    Contender c{.name = name};
-    c.listEntries = s.listEntries;
-    // Lists take whole pages of memory, but the statistics count entries only.
-    c.listBytes = uint64_t(s.listEntries) * sizeof(uint32_t);
-    c.listedPairs = s.listedPairs;
-    c.evaluatedPairs = s.evaluatedPairs;
-    c.insidePairs = s.insidePairs;
-    c.contributingPairs = s.contributingPairs;
-    return c;
+    return {.listEntries = s.listEntries,
+            // Lists take whole pages of memory, but the statistics count entries only.
+            .listBytes = uint64_t(s.listEntries) * sizeof(uint32_t),
+            .listedPairs = s.listedPairs,
+            .evaluatedPairs = s.evaluatedPairs,
+            .insidePairs = s.insidePairs,
+            .contributingPairs = s.contributingPairs};
 }
 
 CullingPoint measurePoint(const VulkanContext& context, const CullingSettings& settings,
@@ -174,14 +160,13 @@ CullingPoint measurePoint(const VulkanContext& context, const CullingSettings& s
     point.tiles = stats.tileCount;
     point.splitTiles = stats.splitTileCount;
     point.unlistedClusters = stats.unlistedClusters;
-    Contender engine = engineContender(engineName, stats), floor{.name = floorName}, shadowed;
-    engine.difference = 0;
+    Contender engine{.name = engineName, .stats = engineStats(stats), .difference = 0};
+    Contender tiles{.name = tilesName, .stats = frame.statsOf(Baseline::Tiles)};
+    Contender froxels{.name = froxelsName, .stats = frame.statsOf(Baseline::Froxels)};
+    Contender brute{.name = bruteName}, floor{.name = floorName}, shadowed{.name = shadowedName};
     if (settings.shadows) // which compiles the kernels
-        shadowed = engineContender(shadowedName, frame.countShadowedPairs());
-    Contender tiles = withStats(tilesName, frame.statsOf(Baseline::Tiles));
-    Contender froxels = withStats(froxelsName, frame.statsOf(Baseline::Froxels));
-    floor.contributingPairs = floor.listedPairs = tiles.contributingPairs;
-    Contender brute{.name = bruteName};
+        shadowed.stats = engineStats(frame.countShadowedPairs());
+    floor.stats.contributingPairs = floor.stats.listedPairs = tiles.stats.contributingPairs;
     const double estimate = frame.estimateBrute();
     if (estimate > 1e3 * settings.bruteLimit)
         brute.skippedMs = estimate;
@@ -238,12 +223,12 @@ double Contender::shadingMs() const
 
 double Contender::contributingPerListed() const
 {
-    return share(double(contributingPairs), double(listedPairs));
+    return share(double(stats.contributingPairs), double(stats.listedPairs));
 }
 
 double Contender::contributingPerEvaluated() const
 {
-    return share(double(contributingPairs), double(evaluatedPairs));
+    return share(double(stats.contributingPairs), double(stats.evaluatedPairs));
 }
 
 bool Contender::hasRightImage() const
@@ -348,15 +333,16 @@ std::vector<std::vector<CullingPoint>> sweepsOf(const std::vector<CullingPoint>&
 void addRow(Table& table, const CullingPoint& p, const Contender& c)
 {
     const bool drawn = !c.skippedMs;
-    const bool lists = c.listBytes > 0;
+    const bool lists = c.stats.listBytes > 0;
     table.add({fmt::format("{} {}", grouped(p.lights), c.name),
                drawn ? threeDigits(c.totalMs())
                      : fmt::format("skipped (about {})", threeDigits(*c.skippedMs)),
                orDash(drawn, threeDigits(c.cullingMs())), orDash(drawn, threeDigits(c.shadingMs())),
-               orDash(lists, grouped(c.listEntries)),
-               orDash(lists, threeDigits(double(c.listBytes) * 1e-6)),
-               orDash(lists, millions(c.listedPairs)), orDash(lists, millions(c.evaluatedPairs)),
-               orDash(c.contributingPairs > 0, millions(c.contributingPairs)),
+               orDash(lists, grouped(c.stats.listEntries)),
+               orDash(lists, threeDigits(double(c.stats.listBytes) * 1e-6)),
+               orDash(lists, millions(c.stats.listedPairs)),
+               orDash(lists, millions(c.stats.evaluatedPairs)),
+               orDash(c.stats.contributingPairs > 0, millions(c.stats.contributingPairs)),
                c.difference ? threeDigits(*c.difference) : "-"},
               {.noisy = drawn && isNoisy(c.times.totals())});
 }
@@ -462,12 +448,12 @@ Json contenderJson(const Contender& c)
                 {"cullingMs", c.cullingMs()},
                 {"shadingMs", c.shadingMs()},
                 {"passes", passesJson(c.times)},
-                {"listEntries", c.listEntries},
-                {"listBytes", c.listBytes},
-                {"listedPairs", c.listedPairs},
-                {"evaluatedPairs", c.evaluatedPairs},
-                {"insidePairs", c.insidePairs},
-                {"contributingPairs", c.contributingPairs}});
+                {"listEntries", c.stats.listEntries},
+                {"listBytes", c.stats.listBytes},
+                {"listedPairs", c.stats.listedPairs},
+                {"evaluatedPairs", c.stats.evaluatedPairs},
+                {"insidePairs", c.stats.insidePairs},
+                {"contributingPairs", c.stats.contributingPairs}});
     if (c.difference)
         out["differenceOverLargest"] = *c.difference;
     return out;

@@ -31,12 +31,17 @@ struct CullingSettings {
     double bruteLimit = 60; // s; brute force is skipped if a frame is estimated to take longer
 };
 
+// What the lists of lights of a frame hold.
+struct CullingStats {
+    uint64_t listEntries = 0, listBytes = 0;
+    uint64_t listedPairs = 0, evaluatedPairs = 0, insidePairs = 0, contributingPairs = 0;
+};
+
 // One way to light the frame, and what it measured.
 struct Contender {
     std::string name;
+    CullingStats stats;
     PassTimes times;
-    uint64_t listEntries = 0, listBytes = 0;
-    uint64_t listedPairs = 0, evaluatedPairs = 0, insidePairs = 0, contributingPairs = 0;
     std::optional<double> skippedMs; // if it was not drawn: how long it was estimated to take
     // The largest difference of any channel to the engine's image, relative to that image's largest
     // value. The floor has no image, and the frame with shadows has another one.
