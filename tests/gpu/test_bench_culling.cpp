@@ -26,8 +26,7 @@ TEST_F(BenchCulling, EveryWayGivesTheImageOfBruteForce)
     if (loadScene("field", {.lights = 1}).instances.size() * gpu::INSTANCE_TEXELS >
         device().limits.maxTexelBufferElements)
         std::erase(settings.scenes, "field");
-    Progress progress(1, false);
-    const std::vector<CullingPoint> points = measureCulling(context(), settings, progress);
+    const std::vector<CullingPoint> points = measureCulling(context(), settings, false);
     ASSERT_EQ(points.size(), settings.scenes.size());
     ASSERT_GE(points.size(), 2u);
     for (const CullingPoint& p : points) {
@@ -69,8 +68,7 @@ TEST_F(BenchCulling, EveryWayFindsAllOfManyLights)
                                    .overlaps = {8},
                                    .rounds = 1,
                                    .bruteLimit = 0};
-    Progress progress(1, false);
-    const std::vector<CullingPoint> points = measureCulling(context(), settings, progress);
+    const std::vector<CullingPoint> points = measureCulling(context(), settings, false);
     ASSERT_EQ(points.size(), 1u);
     EXPECT_TRUE(cullingFailures(points).empty());
     const Contender& engine = points[0].of(engineName);
@@ -101,8 +99,7 @@ TEST_F(BenchCulling, BruteForceOverTheLimitIsListedWithItsEstimate)
                                    .overlaps = {8, 100000},
                                    .rounds = 1,
                                    .bruteLimit = 0};
-    Progress progress(1, false);
-    const std::vector<CullingPoint> points = measureCulling(context(), settings, progress);
+    const std::vector<CullingPoint> points = measureCulling(context(), settings, false);
     ASSERT_EQ(points.size(), 1u); // this many overlaps are impossible
     EXPECT_GT(points[0].of(bruteName).skippedMs.value_or(0), 0);
     const std::string text = textOf(cullingTables(points));
@@ -124,8 +121,7 @@ TEST_F(BenchCulling, TheFrameWithShadowsIsOneMore)
                                    .rounds = 2,
                                    .shadows = 32,
                                    .bruteLimit = 0};
-    Progress progress(1, false);
-    const std::vector<CullingPoint> points = measureCulling(context(), settings, progress);
+    const std::vector<CullingPoint> points = measureCulling(context(), settings, false);
     const Contender& shadowed = points.at(0).of(shadowedName);
     EXPECT_EQ(shadowed.times.frames(), 2u);
     EXPECT_GT(shadowed.shadingMs(), points[0].of(engineName).shadingMs());

@@ -156,8 +156,7 @@ TEST_F(SweepShapes, BoundsAreAboveTheTruth)
                                      .sweeps = 1,
                                      .lightTypes = areaLightTypes(),
                                      .methods = {CND_SPECULAR_KARIS}};
-    Progress progress(1, false);
-    const Stability stability = measureStability(context(), settings, progress);
+    const Stability stability = measureStability(context(), settings, false);
     EXPECT_EQ(test::keyFaults(stabilityJson(settings, stability), "bench-stability"), "");
     ASSERT_EQ(stability.quadrature.size(), settings.lightTypes.size());
     for (const QuadratureCheck& q : stability.quadrature) {

@@ -56,11 +56,7 @@ int culling(const ProgramContext& program, const CullingArguments& a)
     const std::string json = benchOutput(a.directory, "--json", a.json, "bench_culling.json");
     const VulkanContext context(a.device.contextOptions());
     spdlog::info("culling on {}", context.info().name);
-    std::vector<CullingPoint> points;
-    {
-        Progress progress(cullingSteps(settings), !program.quiet);
-        points = measureCulling(context, settings, progress);
-    }
+    const std::vector<CullingPoint> points = measureCulling(context, settings, !program.quiet);
     for (const CullingPlot& plot : cullingPlots(points, context.info()))
         writeText((std::filesystem::path(a.directory) / (plot.name + ".svg")).string(), plot.svg);
     Json document{{"schema", "candelabra bench culling 1"},

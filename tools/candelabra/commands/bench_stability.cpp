@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // candelabra bench stability: tries the shader functions on random and adversarial inputs.
 
-#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include "commands/commands.h"
@@ -41,11 +40,7 @@ int stability(const ProgramContext& program, const StabilityArguments& a)
     const std::string json = benchOutput(a.directory, "--json", a.json, "bench_stability.json");
     const VulkanContext context(a.device.contextOptions());
     spdlog::info("stability on {}", context.info().name);
-    Stability result;
-    {
-        Progress progress(stabilitySteps(settings), !program.quiet);
-        result = measureStability(context, settings, progress);
-    }
+    const Stability result = measureStability(context, settings, !program.quiet);
     Json document{{"schema", "candelabra bench stability 1"},
                   {"provenance", provenance(context.info(), program.commandLine)}};
     document.update(stabilityJson(settings, result));

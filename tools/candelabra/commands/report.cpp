@@ -201,11 +201,7 @@ void cullingPart(const Part& part)
                                    .rounds = reportRounds,
                                    .brutePatience = 2500,
                                    .bruteLimit = 6};
-    std::vector<CullingPoint> points;
-    {
-        Progress progress(cullingSteps(settings), !part.quiet);
-        points = measureCulling(part.context, settings, progress);
-    }
+    const std::vector<CullingPoint> points = measureCulling(part.context, settings, !part.quiet);
     for (const CullingPlot& plot : cullingPlots(points, part.context.info()))
         addChart(part, "culling", plot.svg);
     part.document["culling"] = cullingJson(settings, points);
@@ -223,9 +219,8 @@ void stabilityPart(const Part& part)
         .sweeps = 10,
         .lightTypes = {CND_LIGHT_POINT, CND_LIGHT_SPHERE, CND_LIGHT_SPOT, CND_LIGHT_DIRECTIONAL,
                        CND_LIGHT_TUBE, CND_LIGHT_RECTANGLE, CND_LIGHT_DISC}};
-    Progress progress(stabilitySteps(settings), !part.quiet);
     part.document["stability"] =
-        stabilityJson(settings, measureStability(part.context, settings, progress));
+        stabilityJson(settings, measureStability(part.context, settings, !part.quiet));
     part.document["stability"]["command"] =
         "candelabra bench stability --configs 1000000 --quadrature 2500 --sweeps 10 --light-types "
         "point,sphere,spot,directional,tube,rectangle,disc";

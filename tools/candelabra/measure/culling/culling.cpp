@@ -10,8 +10,8 @@
 #include <spdlog/spdlog.h>
 
 #include "candelabra/candelabra.hpp"
+#include "io/progress.h"
 #include "io/svg_plot.h"
-#include "io/table.h"
 #include "load/load.h"
 #include "measure/culling/baselines.h"
 #include "measure/frame/brute_check.h"
@@ -264,15 +264,13 @@ PairedRatio CullingPoint::toEngine(const std::string& name) const
     return {ratio, 0, std::numeric_limits<double>::infinity()};
 }
 
-double cullingSteps(const CullingSettings& s)
-{
-    return double(s.scenes.size() * s.sizes.size() * s.lights.size() * s.overlaps.size()) *
-           s.rounds;
-}
-
 std::vector<CullingPoint> measureCulling(const VulkanContext& context,
-                                         const CullingSettings& settings, Progress& progress)
+                                         const CullingSettings& settings, bool showProgress)
 {
+    Progress progress(double(settings.scenes.size() * settings.sizes.size() *
+                             settings.lights.size() * settings.overlaps.size()) *
+                          settings.rounds,
+                      showProgress);
     std::vector<CullingPoint> out;
     for (const std::string& name : settings.scenes)
         for (const uint32_t overlaps : settings.overlaps)

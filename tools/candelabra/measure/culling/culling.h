@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "io/parse.h"
-#include "io/progress.h"
 #include "io/report.h"
 #include "io/statistics.h"
 #include "io/table.h"
@@ -85,10 +84,9 @@ inline constexpr const char* floorName = "floor";
 inline constexpr const char* bruteName = "brute force";
 inline constexpr const char* shadowedName = "candelabra with shadows";
 
-double cullingSteps(const CullingSettings& settings);
 // Measures all configurations. One whose overlaps cannot be reached is left out with a warning.
 std::vector<CullingPoint> measureCulling(const VulkanContext& context,
-                                         const CullingSettings& settings, Progress& progress);
+                                         const CullingSettings& settings, bool showProgress);
 
 std::vector<Table> cullingTables(const std::vector<CullingPoint>& points);
 Json cullingJson(const CullingSettings& settings, const std::vector<CullingPoint>& points);

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "io/table.h"
+#include "io/progress.h"
 #include "measure/kernels/parallel.h"
 #include "reference/truth.h"
 #include "reference/vectors.h"
@@ -174,14 +174,11 @@ bool Stability::overBar() const
     return std::ranges::any_of(quadrature, &QuadratureCheck::overBar);
 }
 
-double stabilitySteps(const StabilitySettings& s)
-{
-    return double(s.configurations) + stepsPerTruth * s.quadratureSamples;
-}
-
 Stability measureStability(const VulkanContext& context, const StabilitySettings& settings,
-                           Progress& progress)
+                           bool showProgress)
 {
+    Progress progress(double(settings.configurations) + stepsPerTruth * settings.quadratureSamples,
+                      showProgress);
     Stability out;
     const std::vector<Evaluation> all = evaluations(settings);
     const auto measurable = size_t(std::ranges::count_if(all, hasQuadrature));

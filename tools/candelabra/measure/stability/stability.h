@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "io/progress.h"
 #include "io/report.h"
 #include "io/table.h"
 #include "measure/stability/sweep.h"
@@ -79,9 +78,8 @@ struct Stability {
     bool overBar() const; // whether any of `quadrature` is over its bar
 };
 
-double stabilitySteps(const StabilitySettings& settings);
 Stability measureStability(const VulkanContext& context, const StabilitySettings& settings,
-                           Progress& progress);
+                           bool showProgress);
 
 std::vector<ContinuityCheck> checkContinuity(const VulkanContext& context,
                                              const Evaluation& evaluation, uint32_t sweeps,
