@@ -21,7 +21,6 @@
 #include "io/report.h"
 #include "io/suggestion.h"
 #include "io/table.h"
-#include "render/check.h"
 #include "scene/scene_error.h"
 
 namespace candelabra::app

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // candelabra diff: says whether a picture is the same as another one, and how much it differs.
-#include <cmath>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>

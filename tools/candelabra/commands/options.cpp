@@ -17,7 +17,6 @@
 #include "render/setting_names.h"
 #include "scene/fit_camera.h"
 #include "scene/light_types.h"
-#include "scene/scene_options.h"
 
 namespace candelabra::app
 {

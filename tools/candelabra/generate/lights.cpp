@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "candelabra/glm.hpp"
-#include "generate/light_overlaps.h"
 #include "io/table.h"
 #include "scene/scene_error.h"
 

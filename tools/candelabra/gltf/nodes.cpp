@@ -2,7 +2,6 @@
 #include "gltf/nodes.h"
 
 #include <cmath>
-#include <optional>
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>

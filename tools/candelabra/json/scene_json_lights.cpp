@@ -12,7 +12,6 @@
 #include "candelabra/glm.hpp"
 #include "scene/cone.h"
 #include "scene/light_types.h"
-#include "scene/scene_file.h"
 #include "scene/warnings.h"
 
 namespace candelabra::app

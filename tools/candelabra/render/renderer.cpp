@@ -5,7 +5,6 @@
 #include <array>
 #include <atomic>
 #include <cstring>
-#include <optional>
 #include <utility>
 
 #include "gbuffer/gbuffer.h"

@@ -11,7 +11,6 @@
 #include "candelabra/candelabra.hpp"
 #include "io/statistics.h"
 #include "io/svg_plot.h"
-#include "io/table.h"
 #include "measure/accuracy/ltc_frame.h"
 #include "reference/render.h"
 #include "render/camera.h"

@@ -11,7 +11,6 @@
 #include "measure/accuracy/image_error.h"
 #include "measure/kernels/light_kernels.h"
 #include "render/renderer.h"
-#include "scene/scene_error.h"
 
 namespace candelabra::app
 {

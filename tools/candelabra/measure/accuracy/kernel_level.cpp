@@ -7,10 +7,8 @@
 
 #include "io/statistics.h"
 #include "io/svg_plot.h"
-#include "io/table.h"
 #include "lights/light_types.h"
 #include "measure/kernels/in_double.h"
-#include "scene/light_types.h"
 
 namespace candelabra::app
 {

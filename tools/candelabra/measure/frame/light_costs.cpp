@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "io/table.h"
 #include "measure/frame/surfaces.h"
 #include "reference/vectors.h"
 #include "render/readback.h"

@@ -3,13 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "io/statistics.h"
-#include "io/table.h"
 #include "measure/frame/frames.h"
 #include "render/frame_ring.h"
 #include "render/frame_stamps.h"

@@ -9,7 +9,6 @@
 #include <mutex>
 #include <numbers>
 #include <numeric>
-#include <optional>
 #include <set>
 #include <thread>
 
