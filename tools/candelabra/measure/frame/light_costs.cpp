@@ -7,6 +7,7 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include "measure/frame/surfaces.h"
 #include "reference/vectors.h"
@@ -227,7 +228,7 @@ Table lightCostTable(const LightCosts& costs, const Scene& scene, size_t count, 
     const std::vector<CostRow> rows = rowsOf(costs, count, shadingMs);
     for (const CostRow& row : rows) {
         const CndLight& light = scene.lights[row.light];
-        const glm::dvec3 at = scene.lightOrigin + vec(light.position);
+        const glm::dvec3 at = scene.lightOrigin + reference::vec3(light.position);
         add(fmt::format("{}", row.light), lightTypeName(light.type),
             cndIsDistant(light.type) ? "" : fmt::format("{:.2f}, {:.2f}, {:.2f}", at.x, at.y, at.z),
             threeDigits(double(light.influenceRadius)), row.pixels, row.pairs, row.ms);
