@@ -29,8 +29,8 @@ TEST(Progress, IsALinePerPeriodInALog)
 {
     const std::string log = logOf(true, std::chrono::seconds(0));
     EXPECT_TRUE(std::regex_match(log, std::regex("  0% after 0 s: counting\n"
-                                                 " 25% after 0 s: counting\n"
-                                                 " 75% after 0 s: counting\n")))
+                                                 " 25% after 0 s, about 0 s left: counting\n"
+                                                 " 75% after 0 s, about 0 s left: counting\n")))
         << log;
 }
 

@@ -41,10 +41,10 @@ TEST(Table, ThreeDigits)
     EXPECT_EQ(grouped(7), "7");
     EXPECT_EQ(grouped(1000), "1,000");
     EXPECT_EQ(grouped(123456789), "123,456,789");
-    EXPECT_EQ(written(53740.4), "53,740");
-    EXPECT_EQ(written(1234567), "1,234,567");
-    EXPECT_EQ(written(999.6), "1,000");
-    EXPECT_EQ(written(12.34), "12.3");
+    EXPECT_EQ(groupedOrThreeDigits(53740.4), "53,740");
+    EXPECT_EQ(groupedOrThreeDigits(1234567), "1,234,567");
+    EXPECT_EQ(groupedOrThreeDigits(999.6), "1,000");
+    EXPECT_EQ(groupedOrThreeDigits(12.34), "12.3");
     EXPECT_EQ(counted(0, "light"), "0 lights");
     EXPECT_EQ(counted(1, "light"), "1 light");
     EXPECT_EQ(counted(1000, "light"), "1,000 lights");

@@ -14,6 +14,7 @@
 #include "commands/messages.h"
 #include "generate/generators.h"
 #include "io/error.h"
+#include "io/statistics.h"
 #include "load/load.h"
 #include "measure/stress.h"
 #include "render/provenance.h"
@@ -192,6 +193,11 @@ StressResult search(const ProgramContext& program, const StressArguments& a,
     const auto at = std::ranges::find_if(out.points, [&](const StressPoint& p) {
         return p.asked == found.lights.value_or(found.tried.front().lights);
     });
+    if (isNoisy(at->times.totals()))
+        spdlog::warn(
+            "warning: the times of {} differ by more than {:.0f}%, so another run may find "
+            "another number; other programs may keep the device busy",
+            counted(at->lights, "light"), 100 * noisyShare);
     out.sentence =
         searchSentence(1000 / ms, found, at->cost(), conditionOf(a, settings, context), fewest);
     out.search = {{"framesPerSecond", 1000 / ms},

@@ -50,6 +50,14 @@ void Progress::advance(double steps)
     draw();
 }
 
+std::string Progress::timeLeft() const
+{
+    constexpr double first = 0.05; // the share of the job after which its speed is known
+    if (done_ < first * steps_ || done_ == steps_)
+        return "";
+    return fmt::format(", about {:.0f} s left", secondsSince(start_) * (steps_ / done_ - 1));
+}
+
 void Progress::draw()
 {
     if (!visible_)
@@ -58,9 +66,10 @@ void Progress::draw()
         return log();
     setProgressShown(true);
     const int filled = int(barWidth * done_ / steps_);
-    const std::string line = fmt::format(
-        "\r[{}{}] {:3.0f}% {:4.0f} s  {:.32}\x1b[K", std::string(filled, '#'),
-        std::string(barWidth - filled, ' '), 100 * done_ / steps_, secondsSince(start_), what_);
+    const std::string line =
+        fmt::format("\r[{}{}] {:3.0f}% {:4.0f} s{}  {:.32}\x1b[K", std::string(filled, '#'),
+                    std::string(barWidth - filled, ' '), 100 * done_ / steps_, secondsSince(start_),
+                    timeLeft(), what_);
     std::fputs(line.c_str(), stderr);
     std::fflush(stderr);
 }
@@ -70,8 +79,8 @@ void Progress::log()
     if (Clock::now() - logged_ < period_)
         return;
     logged_ = Clock::now();
-    const std::string line = fmt::format("{:3.0f}% after {:.0f} s: {}\n", 100 * done_ / steps_,
-                                         secondsSince(start_), what_);
+    const std::string line = fmt::format("{:3.0f}% after {:.0f} s{}: {}\n", 100 * done_ / steps_,
+                                         secondsSince(start_), timeLeft(), what_);
     std::fputs(line.c_str(), stderr);
     std::fflush(stderr);
 }

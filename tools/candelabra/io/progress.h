@@ -29,6 +29,7 @@ public:
 private:
     void draw();
     void log();
+    std::string timeLeft() const; // ", about 12 s left"; empty at the beginning and at the end
 
     double steps_, done_ = 0;
     bool visible_, terminal_;

@@ -139,7 +139,7 @@ std::string threeDigits(const std::optional<double>& value)
     return value ? threeDigits(*value) : "below noise";
 }
 
-std::string written(double value)
+std::string groupedOrThreeDigits(double value)
 {
     return value >= 999.5 && value < 1e15 ? grouped(std::llround(value)) : threeDigits(value);
 }

@@ -73,8 +73,9 @@ std::string textOf(std::span<const Table> tables);
 std::string threeDigits(double value);
 // The same, or "below noise" for none.
 std::string threeDigits(const std::optional<double>& value);
-// A number as people write it: "53,740", or three significant digits below 1000.
-std::string written(double value);
+// A number with separators between thousands, such as "53,740", or three significant digits below
+// 1000.
+std::string groupedOrThreeDigits(double value);
 // 1234567 -> "1,234,567".
 std::string grouped(unsigned long long value);
 // "a", "a and b", "a, b and c".

@@ -164,7 +164,7 @@ bool dragNumber(const char* label, float& value, float lowest, float highest,
     const ImGuiIO& io = ImGui::GetIO();
     const bool typed =
         ImGui::TempInputIsActive(ImGui::GetID(label)) || io.KeyCtrl || io.MouseDoubleClicked[0];
-    const std::string format = (typed ? "%.9g" : written(double(value))) + unit;
+    const std::string format = (typed ? "%.9g" : groupedOrThreeDigits(double(value))) + unit;
     return ImGui::DragFloat(label, &value, std::max(value * 0.01f, 1e-3f), lowest, highest,
                             format.c_str(), ImGuiSliderFlags_AlwaysClamp);
 }

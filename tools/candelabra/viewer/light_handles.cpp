@@ -10,7 +10,7 @@ namespace candelabra::app
 namespace
 {
 
-constexpr double steepest = 0.1; // sine of the angle below which a handle cannot be dragged
+constexpr double smallestSine = 0.1; // of the angle below which a handle cannot be dragged
 
 // Returns the direction of an axis, which is given by its bit in the mask of a handle.
 glm::dvec3 directionOf(uint32_t axisBit)
@@ -85,7 +85,7 @@ std::optional<glm::dvec3> LightHandles::pointOn(uint32_t handle, const Projectio
         const glm::dvec3 normal = directionOf(7 ^ handle);
         const double facing = glm::dot(normal, line.direction);
         const double along = glm::dot(normal, w) / facing;
-        if (std::abs(facing) < steepest || along <= 0)
+        if (std::abs(facing) < smallestSine || along <= 0)
             return {};
         return line.origin + along * line.direction;
     }
@@ -96,7 +96,7 @@ std::optional<glm::dvec3> LightHandles::pointOn(uint32_t handle, const Projectio
     const double t =
         (across * glm::dot(w, line.direction) - glm::dot(w, axis)) / std::max(slope, 1e-12);
     const glm::dvec3 point = centre + t * axis;
-    if (slope < steepest * steepest || glm::dot(point - line.origin, line.direction) <= 0)
+    if (slope < smallestSine * smallestSine || glm::dot(point - line.origin, line.direction) <= 0)
         return {};
     return point;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <glm/gtc/color_space.hpp>
 #include <imgui.h>
 
 #include "io/table.h"
@@ -125,7 +126,7 @@ void drawObject(const SelectedObject& object, const Scene& scene)
     };
     ImGui::TextWrapped("material %u%s%s", object.material, m.name.empty() ? "" : ": ",
                        m.name.c_str());
-    const glm::vec3 srgb = glm::pow(glm::clamp(m.baseColor, 0.0f, 1.0f), glm::vec3(1 / 2.2f));
+    const glm::vec3 srgb = glm::convertLinearToSRGB(glm::clamp(m.baseColor, 0.0f, 1.0f));
     ImGui::ColorButton("##colour", {srgb.x, srgb.y, srgb.z, 1});
     ImGui::SameLine();
     ImGui::TextWrapped("colour %.2f, %.2f, %.2f, linear%s", double(m.baseColor.x),
@@ -133,7 +134,7 @@ void drawObject(const SelectedObject& object, const Scene& scene)
     ImGui::TextWrapped("roughness %.2f, metalness %.2f%s", double(m.perceptualRoughness),
                        double(m.metalness), texture(m.metallicRoughnessTexture));
     if (const float light = std::max({m.emission.x, m.emission.y, m.emission.z}); light > 0)
-        ImGui::TextWrapped("shines with %s cd/m^2%s", written(double(light)).c_str(),
+        ImGui::TextWrapped("shines with %s cd/m^2%s", groupedOrThreeDigits(double(light)).c_str(),
                            texture(m.emissiveTexture));
 }
 
@@ -324,7 +325,7 @@ void drawPick(PanelState& state, const Pick& pick, const Scene& scene)
     }
     const double all = luminanceOf(pick.radiance);
     ImGui::TextWrapped("at (%.2f, %.2f, %.2f) m, %s cd/m^2, %s", pick.position.x, pick.position.y,
-                       pick.position.z, written(all).c_str(),
+                       pick.position.z, groupedOrThreeDigits(all).c_str(),
                        counted(pick.lights.size(), "light").c_str());
     constexpr ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY;
     const float line = ImGui::GetTextLineHeightWithSpacing();
@@ -346,7 +347,7 @@ void drawPick(PanelState& state, const Pick& pick, const Scene& scene)
                               ImGuiSelectableFlags_SpanAllColumns))
             state.editor.selected = light.light;
         ImGui::TableNextColumn();
-        ImGui::TextUnformatted(written(y).c_str());
+        ImGui::TextUnformatted(groupedOrThreeDigits(y).c_str());
         ImGui::TableNextColumn();
         ImGui::Text("%.1f%%", all > 0 ? 100 * y / all : 0);
         ImGui::TableNextColumn();

@@ -302,13 +302,15 @@ std::string pickText(const Pick& pick, const Scene& scene)
                          const std::string& distance, const glm::dvec3& radiance,
                          const glm::dvec3& exact, const PickedLight* light = nullptr) {
         const double y = luminanceOf(radiance), of = luminanceOf(exact);
+        const double percent = 100 * (y - of) / of;
+        const double error = std::abs(percent) < 0.0005 ? 0 : percent; // instead of "-0.000%"
         std::vector<std::string> cells{name,
                                        type,
                                        distance,
                                        fmt::format("{:.6g}", y),
                                        shareOf(radiance),
                                        fmt::format("{:.6g}", of),
-                                       of > 0 ? fmt::format("{:+.3f}%", 100 * (y - of) / of) : ""};
+                                       of > 0 ? fmt::format("{:+.3f}%", error) : ""};
         if (pick.shadows) {
             const auto shown = [&](double v) {
                 return light && !std::isnan(v) ? fmt::format("{:.4f}", v) : "";
