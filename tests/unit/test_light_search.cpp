@@ -158,14 +158,14 @@ TEST(FrameRate, SentenceOfASearch)
     EXPECT_EQ(searchSentence(60, found, cost, hall, ""),
               "53,000 sphere lights at 60 frames/s (hall, 1920x1080, 8 lights per pixel, no "
               "shadows, on a GPU): lighting 9.10 of 16.7 ms, raster pass 7.25 ms, the rest 0.150 "
-              "ms; lighting is the larger; a tenth more time would carry about 66,000");
+              "ms; lighting is the limit; a tenth more time would carry about 66,000");
     FrameCondition room{.scene = "rooms", .device = "D", .size = {64, 36}, .shadows = 64};
     room.addedLights = true;
     EXPECT_EQ(searchSentence(0.5, {.tried = {{9, 2}}, .lights = 9, .isMost = true},
                              {9, 1000, 100, 850, 2}, room, ""),
               "9 added sphere lights, as many as there can be on this device, at 1 frames/s, more "
               "than 0.5 (rooms, 64x36, 2 lights per pixel, shadows 64, on D): lighting 100 of 2000 "
-              "ms, raster pass 850 ms, the rest 50.0 ms; the raster pass is the larger");
+              "ms, raster pass 850 ms, the rest 50.0 ms; the raster pass is the limit");
 }
 
 TEST(FrameRate, SentenceOfASearchThatFoundNone)
@@ -177,7 +177,7 @@ TEST(FrameRate, SentenceOfASearchThatFoundNone)
     const std::string sentence =
         searchSentence(60, none, {62, 22, 15, 6, 30}, hall, "30 cannot be reached");
     EXPECT_TRUE(sentence.starts_with("not even 62 sphere lights at 60 frames/s")) << sentence;
-    EXPECT_TRUE(sentence.ends_with("lighting is the larger; fewer were not tried: 30 cannot be "
+    EXPECT_TRUE(sentence.ends_with("lighting is the limit; fewer were not tried: 30 cannot be "
                                    "reached"))
         << sentence;
 }
@@ -187,7 +187,7 @@ TEST(FrameRate, SentenceOfACount)
     EXPECT_EQ(costSentence({16'000, 325, 210, 90, 8}, hall),
               "at 16,000 sphere lights: 3.08 frames/s (hall, 1920x1080, 8 lights per pixel, no "
               "shadows, on a GPU); lighting 210 of 325 ms, raster pass 90.0 ms, the rest 25.0 ms; "
-              "lighting is the larger");
+              "lighting is the limit");
     EXPECT_EQ(costSentence({1, 0, 0, 0, 1}, hall),
               "at 1 sphere light: the frame rate is unknown, because a GPU has no timestamps");
 }

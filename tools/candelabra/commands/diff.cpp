@@ -222,7 +222,9 @@ void addDiffCommand(CLI::App& app, Run& run)
         "linear. .hdr keeps 8 bits of a value, so it differs from .exr by up to 0.8%. Grey is\n"
         "RGB with three equal values. FLIP (Andersson et al. 2020) is the difference that a\n"
         "viewer sees, 0 to 1, at 67 pixels per degree. Linear pictures are displayed for it with\n"
-        "the exposure that is metered on B, and with the tone map neutral.\n\n"
+        "the exposure that is metered on B, and with the tone map neutral. Automatic exposure\n"
+        "makes .png files of two methods or settings differ everywhere: give both the same\n"
+        "--exposure, or compare .exr files.\n\n"
         "Examples:\n"
         "  candelabra diff new.png old.png\n"
         "  candelabra diff hall.exr reference/hall.exr --max-relmse 1e-6 -o heat.png");

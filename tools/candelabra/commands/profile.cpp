@@ -309,8 +309,9 @@ int profile(const ProgramContext& program, const ProfileArguments& a)
     p.settings.moving = !scene.lightMotions.empty();
 
     const VulkanContext context(a.device.contextOptions());
-    spdlog::info("{}: {}, {}x{}, {}, on {}", scene.name, counted(scene.lights.size(), "light"),
-                 size.width, size.height, counted(p.settings.rounds, "frame"), context.info().name);
+    spdlog::info("{}: {}, {}, {}x{}, {}, on {}", scene.name, counted(scene.lights.size(), "light"),
+                 p.shadows ? "with shadows" : "no shadows", size.width, size.height,
+                 counted(p.settings.rounds, "frame"), context.info().name);
     const RendererOptions options{.size = size,
                                   .gbufferLayout = p.gbufferLayout,
                                   .framesInFlight = p.settings.framesInFlight,

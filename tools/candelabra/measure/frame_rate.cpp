@@ -32,7 +32,7 @@ std::string conditionText(const FrameCost& cost, const FrameCondition& c)
 // The parts of the frame, of which `ofMs` are available or used.
 std::string partsText(const FrameCost& c, double ofMs)
 {
-    return fmt::format("lighting {} of {} ms, raster pass {} ms, the rest {} ms; {} is the larger",
+    return fmt::format("lighting {} of {} ms, raster pass {} ms, the rest {} ms; {} is the limit",
                        threeDigits(c.lightingMs), threeDigits(ofMs), threeDigits(c.rasterMs),
                        threeDigits(c.restMs()),
                        c.lightingMs > c.rasterMs ? "lighting" : "the raster pass");
