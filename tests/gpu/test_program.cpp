@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -79,6 +80,19 @@ Png readPng(const std::string& path)
 }
 
 } // namespace
+
+TEST_F(ProgramTest, HeatMapsComeWithTheirFigures)
+{
+    const Outcome outcome = run("render hall --lights 40 --size 96x54 --shadows off "
+                                "--debug evaluated -o a.png -o a.exr");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_TRUE(std::regex_search(
+        outcome.out, std::regex("A pixel with a surface evaluates or waits for [0-9.]+ lights on "
+                                "average; 99% of them have at most [0-9]+; the most are [0-9]+, at "
+                                "[0-9]+,[0-9]+\\.\n")))
+        << outcome.out;
+    EXPECT_NE(outcome.err.find("a.exr; it has the radiance"), std::string::npos) << outcome.err;
+}
 
 TEST_F(ProgramTest, RenderWritesImagesAndFigures)
 {

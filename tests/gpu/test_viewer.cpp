@@ -243,7 +243,7 @@ struct KeyCheck {
 constexpr KeyCheck keyChecks[] = {
     {KeyAction::NextLight, "^light [0-9]+ selected: "},
     {KeyAction::PreviousLight, "^light [0-9]+ selected: "},
-    {KeyAction::FrameScene, "^the camera is inside of the scene$"},
+    {KeyAction::FrameScene, "^the camera is inside the scene$"},
     {KeyAction::AddLight, "^light [0-9]+ added: sphere at "},
     {KeyAction::DuplicateLight, "^light [0-9]+ added: sphere at "},
     {KeyAction::LightAhead, "^light [0-9]+ moved: sphere at "},

@@ -23,17 +23,19 @@ case " $* " in
 *) exec {shlex.quote(str(program))} "${{@/240/6}}" {SMALLER["render"]} ;;
 esac
 """
-# Runs every task of a job array, or the command of --wrap, and prints the number of the job.
+# Runs every task of a job array or the one of --array, or the command of --wrap, and prints the number of the job.
 SBATCH = """#!/usr/bin/env bash
 set -eu
 echo 17
+first=1
 case $1 in
+--array=*) first=${1#--array=}; last=$first; shift ;;
 --dependency=afterok:17) [ "$2" = --wrap ]; exec bash -euc "$3" ;;
 --parsable) shift ;;
 esac
-count=$(sed -n 's/^#SBATCH --array=1-//p' "$1")
-for i in $(seq "$count"); do
-    SLURM_ARRAY_TASK_ID=$i SLURM_ARRAY_TASK_COUNT=$count SLURM_CPUS_PER_TASK=2 bash -eu "$1" >&2
+last=${last-$(sed -n 's/^#SBATCH --array=1-//p' "$1")}
+for i in $(seq "$first" "$last"); do
+    SLURM_ARRAY_TASK_ID=$i SLURM_ARRAY_TASK_COUNT=$((last - first + 1)) SLURM_CPUS_PER_TASK=2 bash -eu "$1" >&2
 done
 """
 failures = []
@@ -82,6 +84,14 @@ def main(place):
                 made.append(path.name)
                 if path.read_bytes() != wanted[path.name]:
                     failures.append(f"{command}: {path.name} is not that of one call")
+    again = place / "again"
+    again.mkdir()
+    for name, text in scripts.items():
+        (again / name).write_text(text, encoding="utf-8")
+    run("sbatch --array=2 frames.sbatch", again, environment)
+    written = sorted(path.name for path in again.glob("*.png"))
+    if written != ["f.0001.png", "f.0005.png"]:  # of 6 frames in 4 shards
+        failures.append(f"the second task alone wrote {written}")
     if made != expected:
         failures.append(f"the commands wrote {made}, and not {expected}")
 

@@ -110,4 +110,21 @@ TEST(PieceRows, TakeAboutAsLongAsTheyShould)
         }
 }
 
+TEST(PieceRows, BecomeShorterAtOnceAndLongerAfterAWholePicture)
+{
+    PieceRows rows;
+    for (int i = 0; i < 12; ++i)
+        drawPieces(rows, 720, 1e-3);
+    EXPECT_EQ(rows.endOf(0, 720), 48u);
+    rows.took(1);
+    EXPECT_EQ(rows.endOf(48, 720), 72u);
+    // Pictures that are begun again and again tell little.
+    for (int i = 0; i < 5; ++i) {
+        rows.took(1e-3);
+        EXPECT_EQ(rows.endOf(0, 720), 24u);
+    }
+    drawPieces(rows, 720, 1e-3);
+    EXPECT_EQ(rows.endOf(0, 720), 48u);
+}
+
 } // namespace

@@ -29,14 +29,13 @@ typedef enum CndHostFunctionBits {
     //   vector towards the light.
     CND_HOST_VISIBILITY_BIT = 1,
     // `CndSurface candelabraReadSurface(ivec2 texel)`: the surface of a pixel, for
-    // CND_GBUFFER_CUSTOM. `texel` counts from the corner of the images, and
-    // `texel - ivec2(cndGbufferView.firstTexel)` from the corner of the frame (CndLightingFrame::x
-    // and y). The function is called only for pixels whose depth holds a surface. It must fill in
-    // `normal`, `albedo`, `F0`, `specularWeight` (Schlick's F90) and `perceptualRoughness`.
-    // `normal`
-    // is in view space and has any length between 1e-6 and 1e6: the kernel normalises it.
-    // Compute it with `precise` variables, so that every kernel gets the same bits. The camera's
-    // rotation is available as cndGbufferView.viewFromWorld.
+    // CND_GBUFFER_CUSTOM. `texel` counts from the corner of the images, and `texel -
+    // ivec2(cndGbufferView.firstTexel)` from the corner of the frame (CndLightingFrame::x and y).
+    // The function is called only for pixels whose depth holds a surface. It must fill in `normal`,
+    // `albedo`, `F0`, `specularWeight` (Schlick's F90) and `perceptualRoughness`. `normal` is in
+    // view space and has any length between 1e-6 and 1e6: the kernel normalises it. Compute it with
+    // `precise` variables, so that every kernel gets the same bits. The camera's rotation is
+    // available as cndGbufferView.viewFromWorld.
     CND_HOST_READ_SURFACE_BIT = 2,
     // `uvec2 candelabraVisiblePoints(CndVisibilityQuery query)`: which points of a light a surface
     // sees, found with rays of the host. The module's kernels then ignore occluders:

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include "commands/commands.h"
 #include "io/error.h"
@@ -18,6 +19,11 @@ void addBenchOutput(CLI::App& command, std::string& directory, std::string& json
               "directory for all output; it is created if it does not exist");
     addOption(command, "--json", json, "FILE",
               fmt::format("JSON file with all figures (DIR/{}); - is standard output", name));
+}
+
+void announceBench(const std::string& what, const VulkanContext& context)
+{
+    spdlog::info("{} on {}; the default options take minutes", what, context.info().name);
 }
 
 std::string benchOutput(const std::string& directory, const std::string& option,

@@ -55,7 +55,7 @@ int accuracy(const ProgramContext& program, const AccuracyArguments& a)
     const std::string imageSvg = benchOutput(a.directory, "--out", "", "bench_images.svg");
 
     const VulkanContext context(a.device.contextOptions());
-    spdlog::info("accuracy on {}; takes minutes with its default options", context.info().name);
+    announceBench("accuracy", context);
     const ThinLightSettings thin{.groups = std::clamp(kernels.groups / 6, 10u, 50u),
                                  .seed = kernels.seed};
     KernelLevel level;

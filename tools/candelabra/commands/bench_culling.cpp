@@ -55,7 +55,7 @@ int culling(const ProgramContext& program, const CullingArguments& a)
     const CullingSettings settings = settingsOf(a);
     const std::string json = benchOutput(a.directory, "--json", a.json, "bench_culling.json");
     const VulkanContext context(a.device.contextOptions());
-    spdlog::info("culling on {}; takes minutes with its default options", context.info().name);
+    announceBench("culling", context);
     const std::vector<CullingPoint> points = measureCulling(context, settings, !program.quiet);
     for (const CullingPlot& plot : cullingPlots(points, context.info()))
         writeText((std::filesystem::path(a.directory) / (plot.name + ".svg")).string(), plot.svg);

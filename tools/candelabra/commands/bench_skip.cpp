@@ -95,7 +95,7 @@ int skip(const ProgramContext& program, const SkipArguments& a)
                              .lightsVisible = false,
                              .exposure = defaultExposureSettings()};
     const VulkanContext context(a.device.contextOptions());
-    spdlog::info("skips on {}; takes minutes with its default options", context.info().name);
+    announceBench("skips", context);
     Renderer renderer(context, scene, {.size = size, .framesInFlight = 1, .stamps = true});
     const std::vector<float> image = imageOf(context, renderer, usual);
     const std::vector<SkipPair> pairs = pairsOf(usual, renderer.stats(0).exposure.adaptedEv100);

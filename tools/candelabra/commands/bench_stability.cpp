@@ -39,7 +39,7 @@ int stability(const ProgramContext& program, const StabilityArguments& a)
             settings.methods.push_back(chooseSpecular("--specular", name));
     const std::string json = benchOutput(a.directory, "--json", a.json, "bench_stability.json");
     const VulkanContext context(a.device.contextOptions());
-    spdlog::info("stability on {}; takes minutes with its default options", context.info().name);
+    announceBench("stability", context);
     const Stability result = measureStability(context, settings, !program.quiet);
     Json document{{"schema", "candelabra bench stability 1"},
                   {"provenance", provenance(context.info(), program.commandLine)}};

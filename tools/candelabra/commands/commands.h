@@ -51,6 +51,8 @@ void addBenchVisibility(CLI::App& bench, Run& run);
 // Adds the options --out DIR and --json FILE, whose default is DIR/name.
 void addBenchOutput(CLI::App& command, std::string& directory, std::string& json,
                     const std::string& name);
+// Says on which device the benchmark `what` runs, and that it takes long.
+void announceBench(const std::string& what, const VulkanContext& context);
 // Creates the directory and returns the path of an output file: `typed` if it is not empty, else
 // `name` in the directory. Throws UsageError if the file cannot be written.
 std::string benchOutput(const std::string& directory, const std::string& option,

@@ -404,9 +404,10 @@ void FrameArguments::addDebugTo(CLI::App& command)
     const OptionGroup group(command, pictureGroup);
     addChoice(
         command, "--debug", heatMap, heatMapChoices,
-        "show in false colours what the lights cost each pixel, instead of the picture: "
-        "lights-per-pixel those in its list, evaluated those that it evaluates or waits for while "
-        "its neighbours do, efficiency the share of the listed ones that contribute; "
+        "show in false colours what the lights cost each pixel, instead of the picture; "
+        "lights-per-pixel counts the lights in its list; evaluated counts those that it evaluates, "
+        "or waits for while its neighbours do; efficiency is the share of the listed lights that "
+        "contribute; "
         "class shows whether a pixel uses the light list of its tile, that of a depth slice "
         "of its tile, or none and walks the light tree; shadow shows how much a pixel sees of "
         "its lights, and needs shadows");

@@ -364,8 +364,9 @@ void addProfileCommand(CLI::App& app, Run& run)
     addOption(*command, "--what-if", a->whatIf, "CHANGE",
               "predict what a change of lights would do: count the pairs of the first frame, and "
               "time frames with and without it alternately; CHANGE is influence=FACTOR (influence "
-              "radii), radius=FACTOR (sizes), off, or method=NAME (--specular of all lights); the "
-              "others apply to the lights that --light-costs lists, or else to all");
+              "radii), radius=FACTOR (sizes), off, or method=NAME (--specular of all lights); "
+              "influence, radius and off change the lights that --light-costs lists, or all lights "
+              "without it");
     addOption(*command, "--json", a->json, "FILE",
               "JSON file with a summary of all times and their provenance; - is standard output");
     command->add_flag("--append", a->append,

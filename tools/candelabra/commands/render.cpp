@@ -153,28 +153,32 @@ FrameCounts frameCounts(const RenderArguments& a, bool sequence, bool byError)
     FrameCounts out{.warmUp = byError ? 3u : 1u};
     if (!a.frames.empty())
         out.measured = unsignedOption("--frames", a.frames, 1, 1'000'000);
-    const ShardNumber shard = shardNumber(a.shard);
-    if (!a.shard.empty() && !sequence)
+    if (a.shard.empty())
+        return out;
+    if (!sequence)
         throw UsageError("--shard: give -o a name with a place for the number of each frame, such "
                          "as f.%04d.png");
-    if (!a.shard.empty() && byError)
+    if (byError)
         throw UsageError("--shard: cannot be combined with --influence-error, which follows the "
                          "exposure of the frame before");
+    const ShardNumber shard = shardNumber(a.shard);
     if (shard.count > out.measured)
-        throw UsageError("--shard " + a.shard +
-                         ": there are more shards than frames, of which "
-                         "--frames asks for " +
-                         a.frames);
+        throw UsageError(fmt::format("--shard {}: --frames asks for only {}, fewer than the shards",
+                                     a.shard, counted(out.measured, "frame")));
     out.first = shard.index - 1;
     out.step = shard.count;
     return out;
 }
 
+bool writesPictures(const RenderArguments& a)
+{
+    return std::ranges::any_of(a.outputs, isDisplayName);
+}
+
 // Throws UsageError if a shard would need the frames of other shards.
 void requireKnownExposure(const RenderArguments& a, const CndExposureSettings& exposure)
 {
-    if (!a.shard.empty() && !exposure.manual &&
-        std::any_of(a.outputs.begin(), a.outputs.end(), isDisplayName))
+    if (!a.shard.empty() && !exposure.manual && writesPictures(a))
         throw UsageError(
             "--shard: the automatic exposure of a frame follows from the frames before "
             "it; give --exposure EV");
@@ -266,9 +270,9 @@ std::string heatMapText(HeatMap which, const std::vector<glm::vec4>& pairs, Pixe
         }
     }
     if (counts.empty())
-        return "no pixel has a surface\n";
+        return "No pixel has a surface.\n";
     const double mean = std::accumulate(counts.begin(), counts.end(), 0.0) / double(counts.size());
-    const auto p99 = counts.begin() + std::ptrdiff_t((counts.size() - 1) * 99 / 100);
+    const auto p99 = counts.begin() + std::ptrdiff_t((counts.size() * 99 + 99) / 100 - 1);
     std::nth_element(counts.begin(), p99, counts.end());
     return fmt::format("A pixel with a surface {} {} lights on average; 99% of them have at most "
                        "{}; the most are {}, at {},{}.\n",
@@ -281,6 +285,8 @@ int reportLastFrame(const ProgramContext& program, const RenderArguments& a, con
                     const VulkanContext& context, const Scene& scene, Renderer& renderer,
                     const MeasuredFrames& frames)
 {
+    if (p.frame.heatMap != HeatMap::None && a.json != "-")
+        writeText("-", heatMapText(p.frame.heatMap, readPairs(context, renderer), renderer.size()));
     std::optional<Pick> picked;
     if (p.pick) {
         picked = pickPixel(context, renderer, scene, p.frame, *p.pick);
@@ -293,8 +299,6 @@ int reportLastFrame(const ProgramContext& program, const RenderArguments& a, con
         if (a.json != "-")
             writeText("-", influenceText(*cut));
     }
-    if (p.frame.heatMap != HeatMap::None && a.json != "-")
-        writeText("-", heatMapText(p.frame.heatMap, readPairs(context, renderer), renderer.size()));
     if (a.explain && a.json != "-") {
         writeText("-", planText(frames.last));
         if (p.frame.shadows)
@@ -400,8 +404,7 @@ int render(const ProgramContext& program, const RenderArguments& a)
     const VulkanContext context(a.device.contextOptions());
     const bool isGpu = context.info().type != VK_PHYSICAL_DEVICE_TYPE_CPU;
     p.counts.samples = p.samples.value_or(isGpu ? pictureSamples : 1);
-    const bool filters =
-        !p.samples && !isGpu && std::any_of(a.outputs.begin(), a.outputs.end(), isDisplayName);
+    const bool filters = !p.samples && !isGpu && writesPictures(a);
     p.frame.edgeFilter |= filters;
     printScene(scene, size, context, p.counts.samples, filters);
     if (p.choosesShadows)

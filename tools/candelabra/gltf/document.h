@@ -91,9 +91,9 @@ void repairGltfJson(GltfDocument& document);
 std::string checkGltfExtensions(const std::string& file, const nlohmann::json& json,
                                 LoadWarnings& warnings);
 
-// Decompress geometry, so that all that follows finds it in plain buffers. They fail if data is
-// broken, or if it claims to be larger than what its compressed size allows: memory is allocated
-// only after that has been checked.
+// The functions below decompress geometry into plain buffers. They throw SceneError if data is
+// broken, or claims to be larger than its compressed size allows, which they check before they
+// allocate memory.
 //
 // Decompresses the buffer views that have EXT_meshopt_compression, or KHR_meshopt_compression with
 // data of the same version. The views then lie in buffers of their own.

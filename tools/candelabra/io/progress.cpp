@@ -13,7 +13,7 @@ namespace candelabra::app
 {
 namespace
 {
-constexpr int barWidth = 30; // characters; the whole line stays under 80
+constexpr int barWidth = 12; // characters; the whole line stays under 80
 
 double secondsSince(Progress::Clock::time_point start)
 {

@@ -32,10 +32,12 @@ std::string conditionText(const FrameCost& cost, const FrameCondition& c)
 // The parts of the frame, of which `ofMs` are available or used.
 std::string partsText(const FrameCost& c, double ofMs)
 {
+    const char* limit = c.restMs() > std::max(c.lightingMs, c.rasterMs) ? "the rest"
+                        : c.lightingMs > c.rasterMs                     ? "lighting"
+                                                                        : "the raster pass";
     return fmt::format("lighting {} of {} ms, raster pass {} ms, the rest {} ms; {} is the limit",
                        threeDigits(c.lightingMs), threeDigits(ofMs), threeDigits(c.rasterMs),
-                       threeDigits(c.restMs()),
-                       c.lightingMs > c.rasterMs ? "lighting" : "the raster pass");
+                       threeDigits(c.restMs()), limit);
 }
 
 } // namespace

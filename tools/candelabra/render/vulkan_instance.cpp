@@ -96,7 +96,8 @@ constexpr Choice<VkPhysicalDeviceType> deviceTypes[] = {
     {"CPU", VK_PHYSICAL_DEVICE_TYPE_CPU},
     {"other", VK_PHYSICAL_DEVICE_TYPE_OTHER}};
 
-// Returns the place of a type in this list. Types that Vulkan may get are others.
+// Returns the place of a type in this list. Types that later versions of Vulkan add count as
+// "other".
 size_t placeOf(VkPhysicalDeviceType type)
 {
     size_t place = 0;

@@ -91,7 +91,7 @@ inline constexpr KeyHelp keyHelp[] = {
      "show the selected light or object, or else the scene, from where nothing hides it",
      {{KeyAction::Frame, GLFW_KEY_F}}},
     {"Shift+F",
-     "show the whole scene; show a room from its camera inside",
+     "show the whole scene, or a room from the camera inside it",
      {{KeyAction::FrameScene, GLFW_KEY_F, GLFW_MOD_SHIFT}}},
     {"Home",
      "return to the first camera; the panel lists all of them",

@@ -10,7 +10,8 @@ namespace candelabra::app
 namespace
 {
 
-constexpr double smallestSine = 0.1; // of the angle below which a handle cannot be dragged
+// A handle cannot be dragged if the sine of its angle to the view is smaller.
+constexpr double smallestSine = 0.1;
 
 // Returns the direction of an axis, which is given by its bit in the mask of a handle.
 glm::dvec3 directionOf(uint32_t axisBit)

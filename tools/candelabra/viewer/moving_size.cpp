@@ -34,12 +34,15 @@ void MovingSize::drew(bool lit)
 
 uint32_t PieceRows::endOf(uint32_t first, uint32_t height)
 {
+    constexpr uint32_t tile = 8; // a piece that ends inside a row of tiles would cull them twice
     if (first == 0) {
-        rows_ = std::max(rows_, uint32_t(std::min(slowest_, 2.0 * rows_)));
+        if (whole_)
+            rows_ = std::max(rows_, uint32_t(std::min(slowest_, 2.0 * rows_)));
         slowest_ = std::numeric_limits<double>::max();
     }
-    rows_ = std::min(std::max(rows_, 8u), height);
+    rows_ = std::max(rows_ / tile * tile, tile);
     drawn_ = std::min(rows_, height - first);
+    whole_ = first + drawn_ == height;
     return first + drawn_;
 }
 

@@ -66,11 +66,12 @@ public:
     // Returns the end of the piece that begins with row `first` of a picture.
     uint32_t endOf(uint32_t first, uint32_t height);
     // Call it when the piece has been drawn. Pieces become shorter at once. They become longer only
-    // with the next picture, and only as far as its slowest rows allow.
+    // after a whole picture, and only as far as its slowest rows allow.
     void took(double seconds);
 
 private:
     uint32_t rows_ = 64, drawn_ = 0;
+    bool whole_ = false;  // the last piece ended a picture
     double slowest_ = 64; // rows that take pieceTime where the picture takes longest
 };
 

@@ -45,7 +45,8 @@ public:
             }
         if (!corner)
             return;
-        const ImVec2 place{corner->x + 4 * width_, // inside of the window, if the lines are not
+        // The name stays in the window even if the lines leave it.
+        const ImVec2 place{corner->x + 4 * width_,
                            std::max(corner->y - ImGui::GetFontSize(), 0.0f)};
         list_->AddText({place.x + 1, place.y + 1}, IM_COL32(0, 0, 0, 255), text.c_str());
         list_->AddText(place, colour, text.c_str());

@@ -579,9 +579,10 @@ void Viewer::advance(double seconds, double wall)
 // submission can answer an event.
 void Viewer::waitForGpu()
 {
-    if (!movingSize_.isSlow())
-        return screen_.waitForSlot();
-    screen_.waitForAll();
+    if (movingSize_.isSlow())
+        screen_.waitForAll();
+    else
+        screen_.waitForSlot();
     pieceRows_.took(std::chrono::duration<double>(Clock::now() - submitted_).count());
 }
 
@@ -591,6 +592,7 @@ bool Viewer::ends()
     if (!window_.wantsToClose() || asks_ || !hasUnsavedEdits())
         return window_.wantsToClose();
     glfwSetWindowShouldClose(window_.get(), GLFW_FALSE);
+    glfwRestoreWindow(window_.get()); // a minimised window would not show the question
     ask();
     settling_ = panelSettles;
     return false;

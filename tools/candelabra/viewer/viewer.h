@@ -276,7 +276,8 @@ private:
     std::optional<RayCaster> rays_; // for the present scene; made when first needed
     bool knownExposure_ = false; // the exposure is Scene::knownEv100, which the user has not chosen
     std::string dropped_;        // path of a dropped file, to be opened before the next frame
-    std::string refusedDrop_;    // path of a dropped scene that would have replaced unsaved edits
+    // The path of a dropped scene that would have replaced unsaved edits, and their state.
+    std::pair<std::string, uint64_t> refusedDrop_;
     uint32_t savedFiles_ = 0;
     // Requests that doRequests() fulfils after this frame, or after the first one that is as the
     // user wants it: the extension of an image to save, saving the scene, the pixel whose lights

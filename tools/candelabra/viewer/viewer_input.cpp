@@ -185,8 +185,9 @@ bool Viewer::onButton(const InputEvent& event)
     const glm::dvec2 place = mouseInPicture();
     if (!event.down && dragButton_ == event.code) {
         dragButton_.reset();
-        if (std::exchange(handleDrag_, std::nullopt)) {
-            showLightNote("moved");
+        if (const auto drag = std::exchange(handleDrag_, std::nullopt)) {
+            if (panel_.editor.selected == drag->index)
+                showLightNote("moved");
             return overlay_.moveMouse(mouseX_, mouseY_);
         }
         const bool click = dragged_ < clickLength * double(window_.contentScale());
@@ -268,7 +269,9 @@ void Viewer::dragHandle()
 {
     const HandleDrag& drag = *handleDrag_;
     const auto to = drag.handles.pointOn(drag.handle, projection(), mouseInPicture());
-    if (!to || panel_.editor.selected != drag.index || rebuilds())
+    if (panel_.editor.selected != drag.index)
+        return handleDrag_.reset();
+    if (!to || rebuilds())
         return;
     const float(&at)[3] = scene_.lights[drag.index].position;
     moveLight(scene_, panel_.editor,
@@ -359,6 +362,7 @@ bool Viewer::hasUnsavedEdits() const
 
 void Viewer::ask()
 {
+    overlay_.endEditing(); // so that the answer does not go to a field
     asks_ = true;
     spdlog::debug("{}", unsaved);
 }
@@ -599,7 +603,7 @@ RayCaster& Viewer::rays()
 void Viewer::frameScene()
 {
     if (scene_.interior) {
-        spdlog::debug("the camera is inside of the scene");
+        spdlog::debug("the camera is inside the scene");
         const auto inside =
             std::find_if(scene_.cameras.begin(), scene_.cameras.end(),
                          [](const Camera& camera) { return camera.name == "inside"; });
@@ -723,7 +727,8 @@ void Viewer::onDrop(const std::string& path)
         // If a scene is being loaded, it gets the environment, and loading starts again.
         return open(wantedScene_, options, loader_.busy() ? loadingKept_ : Kept::CameraAndLights);
     }
-    if (hasUnsavedEdits() && std::exchange(refusedDrop_, path) != path)
+    const std::pair<std::string, uint64_t> refused{path, panel_.editor.history.state()};
+    if (hasUnsavedEdits() && std::exchange(refusedDrop_, refused) != refused)
         return showNote(fmt::format("{}; drop {} again to open it without them", unsaved, path));
     options.lights.reset();
     open(path, options, Kept::Nothing);

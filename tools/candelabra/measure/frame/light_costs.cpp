@@ -84,8 +84,8 @@ std::vector<glm::vec4> drawAndReadPairs(const VulkanContext& context, Renderer& 
         context.submitAndWait([&](VkCommandBuffer cmd) { renderer.record(cmd, 0, frame); });
     while (!renderer.fits(0));
     if (const uint32_t missing = renderer.lightingStats(0).unlistedClusters)
-        spdlog::warn("warning: {} could not be made for lack of memory; the pairs of their pixels "
-                     "are not counted",
+        spdlog::warn("warning: there was no memory for {}; pairs of pixels without a list are not "
+                     "counted",
                      counted(missing, "light list"));
     return readPairs(context, renderer);
 }
@@ -179,7 +179,9 @@ LightCosts lightCosts(const VulkanContext& context, Renderer& renderer, const Sc
     image.pointAt = [&](uint32_t x, uint32_t y) { return surfaces.pointAt(x, y); };
     std::vector<CndLight> lights;
     lightsAtTime(scene, frame.time, lights);
-    return shareOut(image, lights, scene.lightOrigin, frame.camera);
+    LightCosts out = shareOut(image, lights, scene.lightOrigin, frame.camera);
+    out.time = frame.time;
+    return out;
 }
 
 uint64_t evaluatedPairs(const VulkanContext& context, Renderer& renderer, const FrameOptions& frame)
@@ -227,7 +229,7 @@ Table lightCostTable(const LightCosts& costs, const Scene& scene, size_t count, 
     std::vector<uint32_t> named;
     const std::vector<CostRow> rows = rowsOf(costs, count, shadingMs);
     for (const CostRow& row : rows) {
-        const CndLight& light = scene.lights[row.light];
+        const CndLight light = lightAtTime(scene, row.light, costs.time);
         const glm::dvec3 at = scene.lightOrigin + reference::vec3(light.position);
         add(fmt::format("{}", row.light), lightTypeName(light.type),
             cndIsDistant(light.type) ? "" : fmt::format("{:.2f}, {:.2f}, {:.2f}", at.x, at.y, at.z),
@@ -257,7 +259,7 @@ Json lightCostJson(const LightCosts& costs, const Scene& scene, size_t count, do
 {
     Json rows = Json::array();
     for (const CostRow& row : rowsOf(costs, count, shadingMs)) {
-        const CndLight& light = scene.lights[row.light];
+        const CndLight light = lightAtTime(scene, row.light, costs.time);
         rows.push_back({{"light", row.light},
                         {"type", lightTypeName(light.type)},
                         {"position", light.position},

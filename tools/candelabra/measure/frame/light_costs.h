@@ -27,6 +27,7 @@ struct LightCosts {
     uint64_t surfaces = 0;         // pixels that show a surface
     uint64_t coveredPairs = 0;     // the sum of LightCost::pixels
     double pairs = 0;              // pairs evaluated, including lanes that wait for others
+    double time = 0;               // of the frame, in s
     double others = 0;             // those pairs in tiles of 8x8 pixels that no light covers
 };
 

@@ -60,7 +60,7 @@ void requireValid(const std::vector<CndLight>& lights, std::span<const uint32_t>
     const CndLight& light = lights[worst];
     const bool grows = whatIf.change == Change::Radius;
     const double limit = grows ? whatIf.factor / use(worst) : whatIf.factor * use(worst);
-    // Three digits of the text may be rounded to the wrong side of the limit.
+    // The text has three digits. A margin of 0.5% keeps rounding from crossing the limit.
     const std::string factor = fmt::format("; take a factor {} {:.3g}", grows ? "below" : "above",
                                            limit * (grows ? 0.995 : 1.005));
     if (cndIsDistant(light.type))

@@ -85,7 +85,7 @@ std::vector<ContinuityCheck> checkContinuity(const VulkanContext& context,
                                              const Evaluation& evaluation, uint32_t sweeps,
                                              uint64_t seed);
 
-// The last is the table of jumps, which is long. It is left out if continuity was not checked.
+// The last table lists the jumps, and is long. It is left out if continuity was not checked.
 std::vector<Table> stabilityTables(const Stability& stability);
 Json stabilityJson(const StabilitySettings& settings, const Stability& stability);
 
