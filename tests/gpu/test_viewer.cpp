@@ -335,7 +335,7 @@ TEST(Viewer, EveryKeyWorksAfter500RandomInputs)
                              home.x, home.y, home.z),
                  log.find("the checks begin")),
         std::string::npos);
-    // What is saved still has the bulb that was added first.
+    // The last light of the saved scene is the bulb that N added.
     const std::string saved = linesWith(log, "wrote candelabra-").back().substr(6);
     const CndLight bulb = loadScene((dir / saved).string(), {}).lights.back();
     float lumens[3] = {};

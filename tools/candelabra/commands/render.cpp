@@ -16,6 +16,7 @@
 #include "io/error.h"
 #include "io/numbered_name.h"
 #include "io/progress.h"
+#include "io/statistics.h"
 #include "io/table.h"
 #include "load/load.h"
 #include "measure/frame/frames.h"
@@ -257,27 +258,24 @@ std::string heatMapText(HeatMap which, const std::vector<glm::vec4>& pairs, Pixe
     const bool listed = which == HeatMap::LightsPerPixel;
     if (!listed && which != HeatMap::Evaluated)
         return "";
-    std::vector<float> counts;
-    float most = -1;
-    size_t at = 0;
+    std::vector<double> counts;
+    size_t most = 0; // the index of the pixel with the most lights
+    const auto countOf = [&](const glm::vec4& p) { return double(listed ? p.x : p.y); };
     for (size_t i = 0; i < pairs.size(); ++i) {
-        if (pairs[i].w == 0) // no surface
+        if (pairs[i].w == 0) // The pixel has no surface.
             continue;
-        counts.push_back(listed ? pairs[i].x : pairs[i].y);
-        if (counts.back() > most) {
-            most = counts.back();
-            at = i;
-        }
+        counts.push_back(countOf(pairs[i]));
+        if (counts.size() == 1 || countOf(pairs[i]) > countOf(pairs[most]))
+            most = i;
     }
     if (counts.empty())
         return "No pixel has a surface.\n";
     const double mean = std::accumulate(counts.begin(), counts.end(), 0.0) / double(counts.size());
-    const auto p99 = counts.begin() + std::ptrdiff_t((counts.size() * 99 + 99) / 100 - 1);
-    std::nth_element(counts.begin(), p99, counts.end());
     return fmt::format("A pixel with a surface {} {} lights on average; 99% of them have at most "
                        "{}; the most are {}, at {},{}.\n",
-                       listed ? "lists" : "evaluates or waits for", threeDigits(mean), *p99, most,
-                       at % size.width, at / size.width);
+                       listed ? "lists" : "evaluates or waits for", threeDigits(mean),
+                       spreadOf(counts).p99, countOf(pairs[most]), most % size.width,
+                       most / size.width);
 }
 
 // Prints and writes what is asked about the last frame, whose options are those of the plan.

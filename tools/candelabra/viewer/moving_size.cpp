@@ -34,7 +34,7 @@ void MovingSize::drew(bool lit)
 
 uint32_t PieceRows::endOf(uint32_t first, uint32_t height)
 {
-    constexpr uint32_t tile = 8; // a piece that ends inside a row of tiles would cull them twice
+    constexpr uint32_t tile = 8; // Two pieces that share a row of tiles would both cull its lights.
     if (first == 0) {
         if (whole_)
             rows_ = std::max(rows_, uint32_t(std::min(slowest_, 2.0 * rows_)));
@@ -49,7 +49,7 @@ uint32_t PieceRows::endOf(uint32_t first, uint32_t height)
 void PieceRows::took(double seconds)
 {
     const uint32_t drawn = std::exchange(drawn_, 0);
-    if (2 * drawn < rows_) // too short to tell anything
+    if (2 * drawn < rows_) // The time of a short last piece says little about the others.
         return;
     const double fits = drawn * pieceTime / std::max(seconds, 1e-6);
     slowest_ = std::min(slowest_, fits);

@@ -263,7 +263,7 @@ private:
     glm::dvec2 look_{0};
     // A drag of a handle. The last three members are as they were when the drag began.
     struct HandleDrag {
-        uint32_t index = 0;   // of the light, which stays selected, or the drag ends
+        uint32_t index = 0;   // the index of the light; selecting another light ends the drag
         uint32_t handle = 0;  // the one that is dragged
         LightHandles handles; // of the light
         glm::dvec3 from;      // the point of the handle that was under the mouse

@@ -566,7 +566,7 @@ void Viewer::frameSelection()
         return frameScene();
     }
     Camera camera = camera_.camera();
-    camera.nearPlane = home_.nearPlane; // which framing only lowers
+    camera.nearPlane = home_.nearPlane; // Framing lowers it where that is needed.
     if (const glm::dvec3 way = middle - camera.position; glm::length(way) > 1e-3)
         camera.forward = glm::normalize(way);
     camera = FlyCamera(camera, camera_.speed()).camera(); // A FlyCamera never looks straight down.
@@ -612,7 +612,7 @@ void Viewer::frameScene()
     spdlog::debug("the whole scene is in view");
     const PixelSize size = swapchain_.size();
     Camera camera = camera_.camera();
-    camera.nearPlane = home_.nearPlane; // which framing only lowers
+    camera.nearPlane = home_.nearPlane; // Framing lowers it where that is needed.
     goTo(fitCamera(scene_, {0, scene_.instances.size()}, camera, double(size.width) / size.height));
 }
 

@@ -26,7 +26,8 @@ struct FrameCounts {
     // A measured frame is the mean of so many (FrameOptions::sample), and its time is their sum.
     // Warm-up frames have one sample.
     uint32_t samples = 1;
-    // Of the measured frames, only every `step`-th is drawn, starting with frame `first`.
+    // A shard of a sequence draws frame `first` and every `step`-th frame after it. `measured` then
+    // counts the frames of the whole sequence, and drawn() those of the shard.
     uint32_t first = 0, step = 1;
 
     uint32_t drawn() const { return (measured - first + step - 1) / step; }
