@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iostream>
 #include <limits>
+#include <set>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -186,7 +187,7 @@ TEST_F(EnvironmentTest, DiffuseLightMatchesDoubleIntegration)
         setImage(imageOf(sky, 2048), 256);
         std::vector<double> errors;
         double peak = 0;
-        for (int view = 0; view < 30; ++view) {
+        for (int view = 0; view < (fullTests() ? 30 : 10); ++view) {
             const glm::dmat3 viewFromWorld = someRotation(view);
             rotateView(g, viewFromWorld);
             const glm::dvec3 n = glm::transpose(viewFromWorld) * glm::dvec3(0, 0, 1);
@@ -288,10 +289,12 @@ TEST_F(EnvironmentTest, LevelGroundGetsAllLightOfOneTexel)
     for (const auto& [width, height, cubeSize] : sizes) {
         double worst = 0;
         const uint32_t rows = (height + 1) / 2;
-        std::vector<uint32_t> tried = {0, std::min(1u, rows - 1), rows - 1};
-        const int more = fullTests() ? 20 : width < 1000 ? 2 : 0; // large images take long
+        std::set<uint32_t> tried = {0, std::min(1u, rows - 1), rows - 1};
+        if (width > 1024 && !fullTests()) // takes longest
+            continue;
+        const int more = fullTests() ? 20 : width < 1000 ? 1 : 0; // large images take long
         for (int i = 0; i < more; ++i)
-            tried.push_back(random(rows));
+            tried.insert(random(rows));
         for (const uint32_t y : tried) {
             EnvironmentImage image{width, height, std::vector<glm::vec4>(size_t(width) * height)};
             image.pixels[size_t(y) * width + random(width)] = {1e6, 2e6, 3e6, 1};

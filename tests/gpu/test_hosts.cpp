@@ -9,6 +9,7 @@
 
 #include "gpu/lighting_harness.h"
 #include "gpu/raster_host.h"
+#include "harness/full_tests.h"
 #include "render/image_barrier.h"
 
 namespace candelabra::test
@@ -151,16 +152,25 @@ TEST_P(Hosts, AreLitLikeTheNativePath)
     std::cout << "largest difference of the peak: " << worst << '\n';
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Host, Hosts,
-    ::testing::Combine(::testing::Values(HostDepth::Reversed, HostDepth::Standard,
-                                         HostDepth::OpenGl, HostDepth::Linear,
-                                         HostDepth::PositionView, HostDepth::PositionWorld),
-                       ::testing::Values(floatRadiance, halfRadiance)),
-    [](const auto& test) {
-        return std::string(depthNames[int(std::get<0>(test.param))]) +
-               (std::get<1>(test.param) == halfRadiance ? "Halves" : "Floats");
-    });
+// Every depth, and every format of radiance, which has nothing to do with depth. In full tests, all
+// pairs.
+static std::vector<std::tuple<HostDepth, VkFormat>> hosts()
+{
+    std::vector<std::tuple<HostDepth, VkFormat>> out;
+    for (const HostDepth depth :
+         {HostDepth::Reversed, HostDepth::Standard, HostDepth::OpenGl, HostDepth::Linear,
+          HostDepth::PositionView, HostDepth::PositionWorld}) {
+        out.emplace_back(depth, floatRadiance);
+        if (depth == HostDepth::Reversed || fullTests())
+            out.emplace_back(depth, halfRadiance);
+    }
+    return out;
+}
+
+INSTANTIATE_TEST_SUITE_P(Host, Hosts, ::testing::ValuesIn(hosts()), [](const auto& test) {
+    return std::string(depthNames[int(std::get<0>(test.param))]) +
+           (std::get<1>(test.param) == halfRadiance ? "Halves" : "Floats");
+});
 
 class RadianceFormats : public HostTest
 {
