@@ -374,10 +374,10 @@ def refused_without_permission(folder, options):
 
 # Commands, the file name that the sentence must contain, and whether they need a device.
 WRITERS = [
-    (["truth", "scene.json", "--size", "32x32", "--tolerance", "1e-2", "-q", "-o", "{}/x.exr"], "x.exr", False),
-    (["truth", "scene.json", "--size", "32x32", "--tolerance", "1e-2", "-q", "-o", "{}/x.pfm"], "x.pfm", False),
-    (["truth", "scene.json", "--size", "32x32", "--tolerance", "1e-2", "-q", "-o", "{}/x.hdr"], "x.hdr", False),
-    (["truth", "scene.json", "--size", "32x32", "--tolerance", "1e-2", "-q", "--shard", "1/1", "-o", "{}/x.truth"], "x.truth", False),
+    (["truth", "scene.json", "--size", "32x32", "--tolerance", "1e-2", "--shadows", "off", "-q", "-o", "{}/x.exr"], "x.exr", False),
+    (["truth", "scene.json", "--size", "32x32", "--tolerance", "1e-2", "--shadows", "off", "-q", "-o", "{}/x.pfm"], "x.pfm", False),
+    (["truth", "scene.json", "--size", "32x32", "--tolerance", "1e-2", "--shadows", "off", "-q", "-o", "{}/x.hdr"], "x.hdr", False),
+    (["truth", "scene.json", "--size", "32x32", "--tolerance", "1e-2", "--shadows", "off", "-q", "--shard", "1/1", "-o", "{}/x.truth"], "x.truth", False),
     (["compare", "run.json", "run.json", "--json", "{}/x.json"], "x.json", False),
     (["diff", "dot.pfm", "dot.pfm", "--json", "{}/x.json"], "x.json", False),
     (["diff", "dot.pfm", "dot.pfm", "-q", "-o", "{}/x.png"], "x.png", False),
@@ -450,8 +450,8 @@ def test_disk(folder):
 
 # Commands whose files do not differ between runs, or whose completeness can be seen from their end.
 LONG = [
-    (["truth", "scene.json", "--size", "64x48", "--tolerance", "1e-3", "-q", "-o", "x.exr"], False),
-    (["truth", "scene.json", "--size", "64x48", "--tolerance", "1e-3", "-q", "--shard", "1/2", "-o", "x.truth"], False),
+    (["truth", "scene.json", "--size", "16x12", "--tolerance", "1e-3", "-q", "-o", "x.exr"], False),
+    (["truth", "scene.json", "--size", "16x12", "--tolerance", "1e-3", "-q", "--shard", "1/2", "-o", "x.truth"], False),
     (["render", "hall", "--lights", "50", "--size", "256x256", "--frames", "4", "-q", "-o", "x.png", "-o", "x.exr",
       "-o", "x.pfm", "-o", "x.hdr", "--json", "x.json"], True),
     (["stress", "--lights", "20,40", "--size", "64x36", "--frames", "2", "-q", "--out", "o"], True),
