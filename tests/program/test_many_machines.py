@@ -14,14 +14,21 @@ import tempfile
 
 program, root = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
 device = os.environ.get("CANDELABRA_TEST_DEVICE")
-SMALLER = {"truth": "--size 16x9 --tolerance 1e-2 --lights 200",
+SMALLER = {"truth": "--size 8x5 --tolerance 1e-2 --lights 200",
            "render": "--size 32x18 --lights 20" + (f" --device {shlex.quote(device)}" if device else "")}
+# Frames that another listing has rendered by the same command are copied, because a start without a GPU takes seconds.
 CANDELABRA = f"""#!/usr/bin/env bash
+set -eu
 case " $* " in
 *" --merge "*) exec {shlex.quote(str(program))} "$@" ;;
 *" truth "*) exec {shlex.quote(str(program))} "$@" {SMALLER["truth"]} ;;
-*) exec {shlex.quote(str(program))} "${{@/240/6}}" {SMALLER["render"]} ;;
 esac
+frames=$HOME/frames/${{*//[^[:alnum:]]/_}}
+if [ ! -d "$frames" ]; then
+    mkdir -p "$frames"
+    (cd "$frames" && exec {shlex.quote(str(program))} "${{@/240/6}}" {SMALLER["render"]})
+fi
+cp "$frames"/* .
 """
 # Runs every task of a job array or the one of --array, or the command of --wrap, and prints the number of the job.
 SBATCH = """#!/usr/bin/env bash
