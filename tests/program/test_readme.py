@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs every command of README.md as it is written there, in an empty folder, only smaller: options for that
 are appended. A command that this test does not know is a fault. Then renders the example of SCENE_JSON.md.
-Usage: test_readme.py PROGRAM REPOSITORY"""
+Usage: test_readme.py PROGRAM REPOSITORY; with CANDELABRA_FULL_TESTS=1 pictures have their shadows"""
 import os
 import pathlib
 import re
@@ -15,10 +15,11 @@ import time
 program, root = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
 device = os.environ.get("CANDELABRA_TEST_DEVICE")
 FRAME = "--size 64x36"
+SHADOWS = "" if os.environ.get("CANDELABRA_FULL_TESTS") == "1" else "--shadows off"
 # By command and its part: what makes it small. "device" in front: the command takes a --device.
 SMALLER = {
     "examples": "", "help": "", "devices": "", "truth": "--size 16x9 --tolerance 1e-2 --lights 200",
-    "render": f"device {FRAME}", "view": f"device {FRAME} --frames 2",
+    "render": f"device {FRAME} {SHADOWS}", "view": f"device {FRAME} {SHADOWS} --frames 2",
     "profile": f"device {FRAME} --frames 6", "report": "device --parts profile --lights 50 --size 64x36 --frames 2",
     "bench culling": f"device --scenes hall --overlaps 8 {FRAME} --rounds 1",
 }
