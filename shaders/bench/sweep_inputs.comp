@@ -10,7 +10,6 @@
 #include "bench/sweep_random.glsl"
 
 layout(local_size_x = BENCH_GROUP) in;
-layout(constant_id = SPEC_SWEEP_RECORD) const uint recordAll = 0u;
 layout(push_constant, scalar) uniform Push
 {
     SweepParams params;
@@ -103,13 +102,13 @@ void main()
     seedSweep(params.seed, params.slice, index);
     const SweepPoint point = makeSweepPoint(params.slice);
     makeSweepLight(params.slice, point);
-    if (recordAll != 0u)
+    if (params.recordAll != 0u)
         emissionInfluence = vec4(1.0, 1.0, 1.0, UNBOUNDED * UNBOUNDED);
 
     const Surface surface =
         Surface(point.n, point.albedo, point.F0, point.F90, point.perceptualRoughness);
     ShadingPoint p = makeShadingPoint(surface, point.position, point.v);
-    if (recordAll != 0u)
+    if (params.recordAll != 0u)
         separateLobes(p);
     const vec3 response = evaluateClassified(
         makeReceiver(p, params.sampleCount, params.sampleSeed ^ index), 0u);
@@ -128,10 +127,10 @@ void main()
         any(greaterThan(response, limit * 1.000002 + 1e-36));
     count(isAbove, 3u);
     uint slot = lane;
-    bool keep = recordAll != 0u;
+    bool keep = params.recordAll != 0u;
     if (isNan || isInfinite || isNegative || isAbove) {
         const uint bad = atomicAdd(counters.bad, 1u);
-        if (recordAll == 0u) {
+        if (params.recordAll == 0u) {
             slot = bad;
             keep = bad < SWEEP_MAX_BAD;
         }

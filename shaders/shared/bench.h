@@ -68,8 +68,7 @@ CND_SWEEP_SLICES(X)
 
 const uint SWEEP_OUTPUT = 4u; // SweepRecord: one per lane when recording, else the first bad ones
 const uint SWEEP_COUNTERS = 5u;
-const uint SWEEP_MAX_BAD = 64u;     // how many bad responses a dispatch keeps
-const uint SPEC_SWEEP_RECORD = 18u; // 1: record every lane, with lights of unit emission
+const uint SWEEP_MAX_BAD = 64u; // how many bad responses a dispatch keeps
 struct SweepParams {
     uint count; // lanes
     uint slice; // SWEEP_*
@@ -77,9 +76,10 @@ struct SweepParams {
     uint firstIndex;
     uint sampleCount; // as in FrameParams
     uint sampleSeed;
-    uint zero; // 0, which compilers cannot know (see opaque() in bench/sweep_cases.glsl)
+    uint recordAll; // 1: record every lane, with lights of unit emission
+    uint zero;      // 0, which compilers cannot know (see opaque() in bench/sweep_cases.glsl)
 };
-GPU_SIZE(SweepParams, 28)
+GPU_SIZE(SweepParams, 32)
 
 // Numbers of responses. above: responses of a closed form that are above an upper bound of the
 // exact response by more than the errors that SWEEP_CLOSED_FORM_ERROR and SWEEP_OUTLINE_ERROR

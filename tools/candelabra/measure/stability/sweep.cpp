@@ -20,7 +20,7 @@ namespace
 constexpr uint32_t maxLanes = 1u << 20;
 
 gpu::Kernel<gpu::SweepParams> makeKernel(const gpu::Device& device, const Evaluation& evaluation,
-                                         uint32_t seed, bool inexactDivision, bool recording)
+                                         uint32_t seed, bool inexactDivision)
 {
     gpu::Spirv spirv = ofFamily(spirv::sweep_inputs_comp, evaluation);
     std::vector<uint32_t> words;
@@ -31,8 +31,7 @@ gpu::Kernel<gpu::SweepParams> makeKernel(const gpu::Device& device, const Evalua
     return {device,
             spirv,
             {{gpu::SPEC_SPECULAR_METHOD, evaluation.method.specular},
-             {gpu::SPEC_LIGHT_TYPE, evaluation.lightType},
-             {gpu::SPEC_SWEEP_RECORD, recording}}};
+             {gpu::SPEC_LIGHT_TYPE, evaluation.lightType}}};
 }
 
 gpu::Buffer makeRecords(const gpu::Device& device, size_t count)
@@ -69,9 +68,8 @@ Sweep::Sweep(const VulkanContext& context, const Evaluation& evaluation, uint32_
     : context_(context),
       evaluation_(evaluation),
       seed_(seed),
-      counting_(makeKernel(context.device(), evaluation, seed, inexactDivision, false)),
-      recording_(makeKernel(context.device(), evaluation, seed, inexactDivision, true)),
-      bindings_(counting_.createBindings(1)),
+      kernel_(makeKernel(context.device(), evaluation, seed, inexactDivision)),
+      bindings_(kernel_.createBindings(1)),
       counters_(gpu::createBuffer(context.device(), "sweep counters", sizeof(gpu::SweepCounters),
                                   VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::MemoryUse::Readback)),
       bad_(makeRecords(context.device(), gpu::SWEEP_MAX_BAD)),
@@ -79,16 +77,15 @@ Sweep::Sweep(const VulkanContext& context, const Evaluation& evaluation, uint32_
 {
 }
 
-void Sweep::dispatch(const gpu::Kernel<gpu::SweepParams>& kernel, const gpu::SweepParams& params,
-                     const gpu::Buffer& records)
+void Sweep::dispatch(const gpu::SweepParams& params, const gpu::Buffer& records)
 {
     bindings_.write(0, {gpu::Binding::of(gpu::SWEEP_OUTPUT, records),
                         gpu::Binding::of(gpu::SWEEP_COUNTERS, counters_)});
     counters_.as<gpu::SweepCounters>()[0] = {};
     context_.submitAndWait([&](VkCommandBuffer cmd) {
         timer_.begin(cmd, 0);
-        kernel.dispatch(gpu::Frame{context_.device(), cmd, timer_, 0}, bindings_.set(0), params,
-                        gpu::divideUp(params.count, gpu::BENCH_GROUP));
+        kernel_.dispatch(gpu::Frame{context_.device(), cmd, timer_, 0}, bindings_.set(0), params,
+                         gpu::divideUp(params.count, gpu::BENCH_GROUP));
         shaderToHostBarrier(context_.device(), cmd);
     });
 }
@@ -99,8 +96,7 @@ SweepCount Sweep::count(uint32_t slice, uint32_t first, uint64_t configurations,
     SweepCount out;
     while (out.tried < configurations) {
         const auto lanes = uint32_t(std::min<uint64_t>(configurations - out.tried, maxLanes));
-        dispatch(counting_,
-                 {.count = lanes,
+        dispatch({.count = lanes,
                   .slice = slice,
                   .seed = seed_,
                   .firstIndex = first + uint32_t(out.tried),
@@ -123,12 +119,12 @@ SweepCount Sweep::count(uint32_t slice, uint32_t first, uint64_t configurations,
 std::vector<gpu::SweepRecord> Sweep::record(uint32_t slice, uint32_t first, uint32_t configurations)
 {
     const gpu::Buffer records = makeRecords(context_.device(), configurations);
-    dispatch(recording_,
-             {.count = configurations,
+    dispatch({.count = configurations,
               .slice = slice,
               .seed = seed_,
               .firstIndex = first,
-              .sampleCount = evaluation_.sampleCount},
+              .sampleCount = evaluation_.sampleCount,
+              .recordAll = 1},
              records);
     const auto values = records.as<gpu::SweepRecord>();
     return {values.begin(), values.begin() + configurations};

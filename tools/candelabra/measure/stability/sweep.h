@@ -38,13 +38,12 @@ public:
     std::vector<gpu::SweepRecord> record(uint32_t slice, uint32_t first, uint32_t configurations);
 
 private:
-    void dispatch(const gpu::Kernel<gpu::SweepParams>& kernel, const gpu::SweepParams& params,
-                  const gpu::Buffer& records);
+    void dispatch(const gpu::SweepParams& params, const gpu::Buffer& records);
 
     const VulkanContext& context_;
     Evaluation evaluation_;
     uint32_t seed_;
-    gpu::Kernel<gpu::SweepParams> counting_, recording_;
+    gpu::Kernel<gpu::SweepParams> kernel_;
     gpu::Bindings bindings_;
     gpu::Buffer counters_, bad_;
     gpu::Timer timer_;
