@@ -50,9 +50,9 @@ int visibility(const ProgramContext& program, const VisibilityArguments& a)
     lightsAtTime(scene, 0, scene.lights);
     const Camera camera = selectCamera(scene, a.frame.camera);
     const PixelSize size = a.frame.pixelSize(scene, camera);
+    const VulkanContext context(a.device.contextOptions());
     const reference::Scene model =
         toReference(scene, camera, double(size.width) / size.height, false);
-    const VulkanContext context(a.device.contextOptions());
     spdlog::info("{}: {}, {}, {}x{}, {} points per light, on {}", scene.name,
                  counted(scene.lights.size(), "light"), counted(model.triangles.size(), "triangle"),
                  size.width, size.height, points, context.info().name);
