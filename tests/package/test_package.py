@@ -17,6 +17,7 @@ import unittest.mock
 step, source, build, generator = sys.argv[1], *map(pathlib.Path, sys.argv[2:4]), sys.argv[4]
 work = build / "package"
 prefix = work / "prefix"
+launcher = [path] if (path := shutil.which("ccache")) else []
 # The samples run with validation and synchronization validation; the loader's log names its layers.
 LAYERS = {"VK_INSTANCE_LAYERS": "VK_LAYER_KHRONOS_validation",
           "VK_LAYER_ENABLES": "VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT",
@@ -43,10 +44,21 @@ def clean(folder):
     return folder
 
 
+def with_compilers(folder):
+    """Copies what CMake knows about the compilers of BUILD to a new build folder, and returns the option to use it."""
+    for known in (build / "CMakeFiles").glob("*/CMake*Compiler.cmake"):
+        copy = folder / known.relative_to(build)
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(known, copy)
+    return COMPILERS_ARE_KNOWN
+
+
+COMPILERS_ARE_KNOWN = "-DCMAKE_PLATFORM_INFO_INITIALIZED=ON"
+
+
 def configure_and_build(project, folder, *options):
-    launcher = shutil.which("ccache")
-    launchers = [f"-DCMAKE_{l}_COMPILER_LAUNCHER={launcher}" for l in ("C", "CXX")] if launcher else []
-    run("cmake", "-G", generator, "-S", project, "-B", clean(folder), *launchers, *options)
+    launchers = [f"-DCMAKE_{l}_COMPILER_LAUNCHER={launcher[0]}" for l in ("C", "CXX") if launcher]
+    run("cmake", "-G", generator, "-S", project, "-B", folder, *launchers, *options)
     run("cmake", "--build", folder, "--parallel", 2)
 
 
@@ -101,7 +113,8 @@ def install():
 
 
 def sample(name):
-    configure_and_build(prefix / "share/doc/candelabra/samples" / name, work / name, f"-DCMAKE_PREFIX_PATH={prefix}")
+    configure_and_build(prefix / "share/doc/candelabra/samples" / name, work / name, f"-DCMAKE_PREFIX_PATH={prefix}",
+                        with_compilers(clean(work / name)))
     {"embed_window": show_window}.get(name, run_sample)(work / name / name)
 
 
@@ -126,7 +139,7 @@ CPP = ("cpp17", "cpp20")
 
 
 def consume(folder, options, *names):
-    configure_and_build(source / "tests/package/consumer", folder, *options)
+    configure_and_build(source / "tests/package/consumer", clean(folder), *options)
     run_hosts(folder, *names)
 
 
@@ -182,9 +195,8 @@ def fetched():
     get.write_text(f'add_subdirectory("{fetched_source}" "{fetched_build}")\n', encoding="utf-8")
     for stale in (folder / "CMakeCache.txt", *folder.glob("with_*[a-z0-9]")):
         stale.unlink()
-    run("cmake", "-G", generator, "-S", source / "tests/package/consumer", "-B", folder, *options, *WITHOUT,
-        "-DCANDELABRA_INSTALL=ON", "-DBUILD_SHARED_LIBS=OFF")
-    run("cmake", "--build", folder, "--parallel", 2)
+    configure_and_build(source / "tests/package/consumer", folder, *options, *WITHOUT, COMPILERS_ARE_KNOWN,
+                        "-DCANDELABRA_INSTALL=ON", "-DBUILD_SHARED_LIBS=OFF")
     run_hosts(folder, *CPP)
     static = clean(work / "static")
     run("cmake", "--install", folder, "--prefix", static)
@@ -227,8 +239,8 @@ def conan():
     recipe.export_sources()
     recipe.generate()
     options = [f"-D{name}={value}" for name, value in toolchain.cache_variables.items()]
-    configured(exported / "build", run("cmake", "-G", generator, "-S", exported, "-B", exported / "build", *options,
-                                       "-DBUILD_SHARED_LIBS=ON"))
+    options += ["-DBUILD_SHARED_LIBS=ON", with_compilers(exported / "build")]
+    configured(exported / "build", run("cmake", "-G", generator, "-S", exported, "-B", exported / "build", *options))
 
 
 def vcpkg():
@@ -242,7 +254,7 @@ def vcpkg():
 function(vcpkg_cmake_configure)
     cmake_parse_arguments(PARSE_ARGV 0 arg "" SOURCE_PATH OPTIONS)
     execute_process(COMMAND ${{CMAKE_COMMAND}} -G "{generator}" -S ${{arg_SOURCE_PATH}} -B "{folder}/build"
-        -DBUILD_SHARED_LIBS=OFF ${{arg_OPTIONS}} COMMAND_ERROR_IS_FATAL ANY)
+        -DBUILD_SHARED_LIBS=OFF {with_compilers(folder / "build")} ${{arg_OPTIONS}} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 set(CURRENT_PACKAGES_DIR "{folder}/packages")
 include("{port}")
@@ -278,9 +290,10 @@ def pkg_config():
     for name, compiler in {"c": ("cc", main),
                            "cpp17": ("c++", "-std=c++17", main.with_name("host.cpp")),
                            "cpp20": ("c++", "-std=c++20", main.with_name("host.cpp"))}.items():
-        run(*compiler, "-o", work / f"pc_{name}_shared", *flags)
+        run(*launcher, *compiler, "-c", "-o", work / f"pc_{name}.o", *flags)
+        run(compiler[0], work / f"pc_{name}.o", "-o", work / f"pc_{name}_shared", *flags)
         run(work / f"pc_{name}_shared", LD_LIBRARY_PATH=str(libdir()))
-        run(*compiler, "-o", work / f"pc_{name}_static", *archive)
+        run(compiler[0], work / f"pc_{name}.o", "-o", work / f"pc_{name}_static", *archive)
         run(work / f"pc_{name}_static")
         require("libcandelabra" not in run("readelf", "-d", work / f"pc_{name}_static"),
                 "the static library was linked as a shared one")
@@ -311,7 +324,12 @@ def program():
 def debian():
     folder = clean(work / "debian")
     os.umask(0o077)  # a package is the same whatever the umask of the person who makes it
-    run("cpack", "--config", build / "CPackConfig.cmake", "-B", folder)
+    # Most of the time CPack would compress, and start `cmake -E env` to look at every file.
+    folder.mkdir()
+    (folder / "cmake").write_text('#!/bin/sh\n[ "$1 $2" != "-E env" ] || { shift 2; exec env "$@"; }\nexec cmake "$@"\n')
+    (folder / "cmake").chmod(0o755)
+    run("cpack", "--config", build / "CPackConfig.cmake", "-B", folder, "-D", "CPACK_DEBIAN_COMPRESSION_TYPE=none",
+        "-D", f"CMAKE_COMMAND={folder}/cmake")
     wanted = {"libcandelabra-dev": (r"lib/(.*/)?libcandelabra\.so\.\d+\.\d+\.\d+",
                                     "include/candelabra/candelabra.h"),
               "candelabra": ("bin/candelabra",)}
