@@ -82,7 +82,7 @@ def main(folder):
         if elsewhere:
             print(f"         {command}: not run, {elsewhere[0]}")
         elif command == "tools/demo":
-            run(f"{command} --lights 20,40 --size 64x36 --frames 1", empty, environment)
+            run(f"{command} --lights 20 --size 64x36 --frames 1", empty, environment)
         elif command == "tools/gpu_stats":
             run(f"{command} --program {shlex.quote(str(program))} --kernels tone_map --gpus navi21-wave32", empty, environment,
                 allowed=(0, NO_GPU_TO_COMPILE_FOR))
