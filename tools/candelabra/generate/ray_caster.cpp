@@ -19,6 +19,17 @@ constexpr double far = std::numeric_limits<double>::infinity();
 constexpr double ballTriangles = 400;
 constexpr uint64_t ballPath = 30;
 
+// These return one of two numbers, and the other one if it is NaN. fmin and fmax would be calls.
+double lesser(double a, double b)
+{
+    return a < b || std::isnan(b) ? a : b;
+}
+
+double greater(double a, double b)
+{
+    return a > b || std::isnan(b) ? a : b;
+}
+
 // The distance at which the ray enters the box, or infinity if the ray misses the box or enters it
 // beyond `nearest`.
 double enterBox(const Ray& ray, const glm::dvec3& inverseDirection, const Bounds& box,
@@ -28,10 +39,9 @@ double enterBox(const Ray& ray, const glm::dvec3& inverseDirection, const Bounds
     for (int axis = 0; axis < 3; ++axis) {
         const double a = (box.min[axis] - ray.origin[axis]) * inverseDirection[axis];
         const double b = (box.max[axis] - ray.origin[axis]) * inverseDirection[axis];
-        // If the ray runs within a side of the box, 0 * infinity gives NaN, which fmin and fmax
-        // ignore.
-        enter = std::fmax(enter, std::fmin(a, b));
-        leave = std::fmin(leave, std::fmax(a, b));
+        // If the ray runs within a side of the box, 0 * infinity gives NaN.
+        enter = greater(enter, lesser(a, b));
+        leave = lesser(leave, greater(a, b));
     }
     return enter <= leave ? enter : far;
 }
@@ -73,22 +83,29 @@ bool isInvertible(const glm::dmat4& m)
     return std::isnormal(determinant);
 }
 
-// Returns how wide the shaft is where it leaves the box, or nothing if it misses the box. The box
-// is widened by that, so some boxes that it misses count.
-std::optional<double> widthAt(const Shaft& shaft, const Bounds& box)
-{
-    const double length2 = glm::dot(shaft.axis, shaft.axis);
-    const glm::dvec3 middle = 0.5 * (box.min + box.max) - shaft.start;
-    const glm::dvec3 half = 0.5 * (box.max - box.min);
-    const double leaves =
-        (glm::dot(middle, shaft.axis) + glm::dot(half, glm::abs(shaft.axis))) / length2;
-    if (!(leaves >= 0))
-        return std::nullopt;
-    const double width = glm::mix(shaft.startRadius, shaft.endRadius, std::min(leaves, 1.0));
-    const bool touches = enterBox({shaft.start, shaft.axis}, 1.0 / shaft.axis,
-                                  {box.min - width, box.max + width}, 1) != far;
-    return touches ? std::optional(width) : std::nullopt;
-}
+// A shaft that many boxes are compared with.
+struct TestedShaft : Shaft {
+    explicit TestedShaft(const Shaft& shaft) : Shaft(shaft) {}
+
+    // Returns how wide the shaft is where it leaves the box, or nothing if it misses the box. The
+    // box is widened by that, so some boxes that it misses count.
+    std::optional<double> widthAt(const Bounds& box) const
+    {
+        const glm::dvec3 middle = 0.5 * (box.min + box.max) - start;
+        const glm::dvec3 half = 0.5 * (box.max - box.min);
+        const double leaves = (glm::dot(middle, axis) + glm::dot(half, extent_)) / length2_;
+        if (!(leaves >= 0))
+            return std::nullopt;
+        const double width = glm::mix(startRadius, endRadius, std::min(leaves, 1.0));
+        const bool touches =
+            enterBox({start, axis}, inverse_, {box.min - width, box.max + width}, 1) != far;
+        return touches ? std::optional(width) : std::nullopt;
+    }
+
+private:
+    glm::dvec3 inverse_ = 1.0 / axis, extent_ = glm::abs(axis);
+    double length2_ = glm::dot(axis, axis);
+};
 
 // Tells whether the plane of a triangle has the start of the shaft and some of its end on two
 // sides. The plane of the surface from which a shaft starts has not.
@@ -178,22 +195,25 @@ void BoxTree::traverse(const Ray& ray, double& nearest, Visit&& visit) const
 }
 
 template <typename Visit>
-uint64_t BoxTree::traverse(const Shaft& shaft, Visit&& visit) const
+uint64_t BoxTree::traverse(const Shaft& asked, Visit&& visit) const
 {
+    const TestedShaft shaft(asked);
     uint64_t tested = 0;
-    std::vector<uint32_t> stack;
+    uint32_t stack[64]; // 2^32 items need 32 levels
+    uint32_t depth = 0;
     if (!nodes_.empty())
-        stack.push_back(0);
-    for (; !stack.empty(); ++tested) {
-        const uint32_t index = stack.back();
-        stack.pop_back();
+        stack[depth++] = 0;
+    for (; depth > 0; ++tested) {
+        const uint32_t index = stack[--depth];
         const Node& node = nodes_[index];
-        if (!widthAt(shaft, node.box))
+        if (!shaft.widthAt(node.box))
             continue;
         for (uint32_t i = 0; i < node.count; ++i)
             visit(order_[node.first + i]);
-        if (node.count == 0)
-            stack.insert(stack.end(), {node.first, index + 1});
+        if (node.count == 0) {
+            stack[depth++] = node.first;
+            stack[depth++] = index + 1;
+        }
     }
     return tested;
 }
@@ -233,8 +253,9 @@ std::optional<RayHit> RayCaster::cast(const Ray& ray)
     return best;
 }
 
-ShaftContents RayCaster::contentsOf(const Shaft& shaft, uint32_t ignoredLayers)
+ShaftContents RayCaster::contentsOf(const Shaft& asked, uint32_t ignoredLayers)
 {
+    const TestedShaft shaft(asked);
     ShaftContents out;
     uint64_t inMeshes = 0;
     out.boxes = instances_.traverse(shaft, [&](uint32_t item) {
@@ -245,12 +266,12 @@ ShaftContents RayCaster::contentsOf(const Shaft& shaft, uint32_t ignoredLayers)
         const glm::dmat4& m = objectFromWorld_[item];
         const glm::dmat3 turn(m);
         const double scale = std::cbrt(std::abs(glm::determinant(turn)));
-        const Shaft local{glm::dvec3(m * glm::dvec4(shaft.start, 1)), turn * shaft.axis,
-                          scale * shaft.startRadius, scale * shaft.endRadius};
+        const TestedShaft local({glm::dvec3(m * glm::dvec4(shaft.start, 1)), turn * shaft.axis,
+                                 scale * shaft.startRadius, scale * shaft.endRadius});
         const Mesh& mesh = scene_.meshes[instance.mesh];
         inMeshes += meshTree(instance.mesh).traverse(local, [&](uint32_t triangle) {
             out.triangles += separates(local, mesh, triangle) &&
-                             widthAt(local, triangleBounds(mesh, triangle)).has_value();
+                             local.widthAt(triangleBounds(mesh, triangle)).has_value();
         });
     });
     out.boxes += inMeshes;
@@ -259,7 +280,7 @@ ShaftContents RayCaster::contentsOf(const Shaft& shaft, uint32_t ignoredLayers)
         if (object.type != AnalyticObject::Type::Ball ||
             (ignoredLayers >> object.occluderLayer & 1))
             continue;
-        if (const auto width = widthAt(shaft, {object.point - radius, object.point + radius})) {
+        if (const auto width = shaft.widthAt({object.point - radius, object.point + radius})) {
             const double share = std::min(*width / radius, 1.0);
             const auto triangles = uint64_t(ballTriangles * share * share);
             out.triangles += triangles;

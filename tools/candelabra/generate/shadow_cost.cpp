@@ -17,7 +17,7 @@ namespace candelabra::app
 namespace
 {
 
-constexpr uint32_t estimateRows = 12;
+constexpr uint32_t mostRows = 12;
 // Bound the time that an estimate takes.
 constexpr double mostPairsTested = 2e7;
 constexpr uint64_t mostBoxesTested = 20000000; // then the points so far stand for all
@@ -41,21 +41,23 @@ struct SeenPoint {
 std::vector<SeenPoint> seenPoints(RayCaster& caster, const Camera& camera, PixelSize size,
                                   size_t& rays)
 {
+    // One ray per tile is enough.
+    const auto rows =
+        uint32_t(std::clamp(std::ceil(size.height / tileSide), 1.0, double(mostRows)));
     const double aspect = double(size.width) / size.height;
-    const auto columns =
-        uint32_t(std::clamp(std::round(aspect * estimateRows), 1.0, 8.0 * estimateRows));
+    const auto columns = uint32_t(std::clamp(std::round(aspect * rows), 1.0, 8.0 * mostRows));
     const double pixel = camera.orthographic ? camera.orthographicHeight / size.height
                                              : 2 * std::tan(camera.verticalFov / 2) / size.height;
     std::vector<SeenPoint> out;
-    for (uint32_t y = 0; y < estimateRows; ++y)
+    for (uint32_t y = 0; y < rows; ++y)
         for (uint32_t x = 0; x < columns; ++x)
-            if (const Ray ray = cameraRay(camera, x, y, columns, estimateRows);
+            if (const Ray ray = cameraRay(camera, x, y, columns, rows);
                 const auto hit = caster.cast(ray)) {
                 const double cosine = std::abs(glm::dot(hit->normal, ray.direction));
                 const double scale = camera.orthographic ? pixel : pixel * hit->distance;
                 out.push_back({*hit, std::sqrt(0.5) * tileSide * scale / std::max(cosine, 0.2)});
             }
-    rays = size_t{estimateRows} * columns;
+    rays = size_t{rows} * columns;
     return out;
 }
 
