@@ -8,25 +8,29 @@
 # ("picture: ") come at any time and do not count.
 . "$(dirname "$0")/viewer_log.sh"
 log=log.txt
-said() { grep -v '^picture: ' $log; }
-lines() { said | wc -l; }
-# Waits for a line after line $1 of the log that matches $2.
+lines() { grep -vc '^picture: ' $log; }
+# Tells whether a line after line $1 of the log matches $2.
+said() {
+    awk -v after=$1 -v wanted="$2" '!/^picture: / && ++n > after && $0 ~ wanted { found = 1 }
+        END { exit !found }' $log
+}
+# Waits until one does.
 await() {
     for i in $(seq 6000); do
-        said | tail -n +$(($1 + 1)) | grep -Eq -- "$2" && return 0
+        said $1 "$2" && return 0
         kill -0 $viewer 2>/dev/null || return 1
         sleep 0.05
     done
     return 1
 }
-"$PROGRAM" view hall --lights 40 --size 240x160 --exposure 4 --samples 1 --shadows off --verbose --validate \
+"$PROGRAM" view rooms --lights 40 --size 240x160 --exposure 4 --samples 1 --shadows off --verbose --validate \
     ${CANDELABRA_TEST_DEVICE:+--device "$CANDELABRA_TEST_DEVICE"} 2>>$log &
 viewer=$!
 window=$(timeout 120 xdotool search --sync --onlyvisible --name '^candelabra$' | head -n 1)
 xdotool windowfocus --sync $window
 xdotool - <inputs.txt
 xdotool key p # once the image exists, everything before it has been processed
-await 0 '^wrote candelabra-[0-9]*\.png' || fail "after random keys, P does not save the image"
+await 0 '^wrote candelabra-[0-9]*[.]png' || fail "after random keys, P does not save the image"
 # A key that is held while the window loses the keyboard does not stay pressed.
 before=$(lines)
 xdotool keydown w sleep 0.3 windowunmap --sync $window keyup w windowmap --sync $window \
@@ -41,7 +45,7 @@ while IFS=$'\t' read -r tries commands expected; do
         # Only the last try waits for the expected line; others wait for any line.
         if [ $tries -gt 0 ]; then
             await $before . || fail "$commands: prints nothing"
-            said | tail -n +$((before + 1)) | grep -Eq -- "$expected" && break
+            said $before "$expected" && break
         else
             await $before "$expected" && break
             fail "$commands: has no effect, expected: $expected"

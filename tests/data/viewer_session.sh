@@ -25,7 +25,7 @@ complete() { # text
     done
     fail "the picture was never complete after: $1"
 }
-"$PROGRAM" view hall --lights 40 --size 320x200 --exposure 4 --shadows off --validate --no-overlay --verbose \
+"$PROGRAM" view rooms --lights 40 --size 320x200 --exposure 4 --shadows off --validate --no-overlay --verbose \
     ${CANDELABRA_TEST_DEVICE:+--device "$CANDELABRA_TEST_DEVICE"} &
 viewer=$!
 logged "F2 lists keys" # the scene is there
@@ -33,12 +33,12 @@ window=$(timeout 120 xdotool search --sync --onlyvisible --name '^candelabra$' |
 xdotool windowfocus --sync $window
 complete "F2 lists keys"
 save # 1
-xdotool mousemove --window $window 160 185 click 1
+xdotool mousemove --window $window 120 185 click 1
 logged " selected, of material "
 xdotool key n
 logged "^light 40 added"
 # By its handle y, upwards.
-xdotool mousemove --window $window 160 145 mousedown 1 mousemove --window $window 160 105 mouseup 1
+xdotool mousemove --window $window 120 145 mousedown 1 mousemove --window $window 120 105 mouseup 1
 logged "^light 40 moved"
 xdotool key period period period Up
 logged "^light 40 moved" 2
@@ -52,7 +52,6 @@ sleep 0.5
 xdotool keyup w
 save # 4: after moving the camera
 xdotool key o mousemove 200 100 mousedown 1 mousemove 230 110 mouseup 1 key o
-for method in 1 2 3 4 5 6 7 8; do xdotool key m; done # through all methods, back to the first
 xdotool key c
 complete "^light culling: brute"
 save # 5: brute force
@@ -60,7 +59,7 @@ xdotool key c h h h h h F1 F2
 complete "^heat map: none"
 save # 6: through all heat maps, panel and help
 xdotool key b bracketright
-logged "^hall: 80 lights" # the other scene has taken the place of the first
+logged "^rooms: 80 lights" # the other scene has taken the place of the first
 save # 7: comparison wipe, twice the lights
 for i in $(seq 20); do
     xdotool windowsize $window $((200 + i * 13 % 170)) $((150 + i * 29 % 110))

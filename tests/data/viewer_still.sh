@@ -6,11 +6,11 @@ size="--size 200x150 --shadows off"
 set -e
 
 "$PROGRAM" render wide.json --aa 16 $size -o wide.png $device
-for frames in 2 40; do
+for frames in 2 24; do
     "$PROGRAM" view wide.json $size --no-overlay --verbose --validate $device \
         --frames $frames --screenshot $frames.png 2>$frames.txt
 done
-"$PROGRAM" view hall --lights 40 --moving $size --frames 40 --verbose --validate $device 2>lights.txt
+"$PROGRAM" view hall --lights 40 --moving $size --frames 20 --verbose --validate $device 2>lights.txt
 
 set +e
 . "$(dirname "$0")/viewer_log.sh"
