@@ -76,7 +76,7 @@ struct SweepParams {
     uint firstIndex;
     uint sampleCount; // as in FrameParams
     uint sampleSeed;
-    uint recordAll; // 1: record every lane, with lights of unit emission
+    uint recordAll; // 1: record every lane, with lights of unit emission; 0: the first bad ones
     uint zero;      // 0, which compilers cannot know (see opaque() in bench/sweep_cases.glsl)
 };
 GPU_SIZE(SweepParams, 32)

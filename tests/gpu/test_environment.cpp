@@ -287,11 +287,11 @@ TEST_F(EnvironmentTest, LevelGroundGetsAllLightOfOneTexel)
         return uint32_t(uint64_t(seed) * count >> 32);
     };
     for (const auto& [width, height, cubeSize] : sizes) {
+        if (width > 1024 && !fullTests()) // the largest image takes longest
+            continue;
         double worst = 0;
         const uint32_t rows = (height + 1) / 2;
         std::set<uint32_t> tried = {0, std::min(1u, rows - 1), rows - 1};
-        if (width > 1024 && !fullTests()) // takes longest
-            continue;
         const int more = fullTests() ? 20 : width < 1000 ? 1 : 0; // large images take long
         for (int i = 0; i < more; ++i)
             tried.insert(random(rows));

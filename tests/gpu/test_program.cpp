@@ -148,7 +148,7 @@ TEST_F(ProgramTest, CullingAndFrameCountDoNotChangeTheImage)
 TEST_F(ProgramTest, ShadowsTakeLightAway)
 {
     const std::string start = "render rooms --lights 200 --size 64x36 --aa 1 -o ";
-    const Outcome off = run(start + "a.pfm --shadows off");
+    const Outcome off = run(start + "a.pfm --shadows off --validate");
     ASSERT_EQ(off.exitCode, 0) << off.err;
     const Outcome on =
         run(start + "b.pfm --shadows 64 --json b.json --explain --pick 32,25 --validate");

@@ -261,7 +261,7 @@ constexpr KeyCheck keyChecks[] = {
     {KeyAction::Redo, "^redone: light [0-9]+ has another size$"},
     {KeyAction::Frame, "^light [0-9]+ is framed$"},
     {KeyAction::Home, "^the camera is back where it began$"},
-    {KeyAction::Help, "^the help is shown$", 2},
+    {KeyAction::Help, "^the help is shown$", 2}, // an open help would take the Escape of Quit
     {KeyAction::Help, "^the help is hidden$"},
     {KeyAction::Quit, "^edits of lights are not saved$"},
     {KeyAction::RemoveLight, "^light [0-9]+ removed: "},

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests Candelabra as other projects get it: installed into a folder that is then moved, found from
-clean build folders, fetched, added to a source tree, or by a package manager. Usage: test_package.py STEP
-SOURCE BUILD GENERATOR; the step `install` must run first. Everything is written to BUILD/package."""
+clean build folders, fetched, added to a source tree, or by a package manager. The samples use the
+compilers that BUILD has found. Usage: test_package.py STEP SOURCE BUILD GENERATOR; the step `install` must run first. Everything is written to BUILD/package."""
 import os
 import pathlib
 import re
@@ -44,16 +44,17 @@ def clean(folder):
     return folder
 
 
-def with_compilers(folder):
-    """Copies what CMake knows about the compilers of BUILD to a new build folder, and returns the option to use it."""
+# Makes CMake use what a build folder already says about compilers. It is not documented: a CMake that does not know it
+# looks for the compilers again.
+COMPILERS_ARE_KNOWN = "-DCMAKE_PLATFORM_INFO_INITIALIZED=ON"
+
+
+def copy_compilers(folder):
+    """Copies what CMake knows about the compilers of BUILD to a new build folder, for COMPILERS_ARE_KNOWN."""
     for known in (build / "CMakeFiles").glob("*/CMake*Compiler.cmake"):
         copy = folder / known.relative_to(build)
         copy.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(known, copy)
-    return COMPILERS_ARE_KNOWN
-
-
-COMPILERS_ARE_KNOWN = "-DCMAKE_PLATFORM_INFO_INITIALIZED=ON"
 
 
 def configure_and_build(project, folder, *options):
@@ -113,8 +114,9 @@ def install():
 
 
 def sample(name):
+    copy_compilers(clean(work / name))
     configure_and_build(prefix / "share/doc/candelabra/samples" / name, work / name, f"-DCMAKE_PREFIX_PATH={prefix}",
-                        with_compilers(clean(work / name)))
+                        COMPILERS_ARE_KNOWN)
     {"embed_window": show_window}.get(name, run_sample)(work / name / name)
 
 
@@ -239,14 +241,15 @@ def conan():
     recipe.export_sources()
     recipe.generate()
     options = [f"-D{name}={value}" for name, value in toolchain.cache_variables.items()]
-    options += ["-DBUILD_SHARED_LIBS=ON", with_compilers(exported / "build")]
+    options += ["-DBUILD_SHARED_LIBS=ON", COMPILERS_ARE_KNOWN]
+    copy_compilers(exported / "build")
     configured(exported / "build", run("cmake", "-G", generator, "-S", exported, "-B", exported / "build", *options))
 
 
 def vcpkg():
     """The vcpkg port, with stand-ins for vcpkg's functions: its options can be configured."""
     folder = clean(work / "vcpkg")
-    folder.mkdir()
+    copy_compilers(folder / "build")
     port = source / "engine/package/vcpkg/portfile.cmake"
     script = folder / "stand_ins.cmake"
     script.write_text("\n".join(f"function({name})\nendfunction()" for name in sorted(set(
@@ -254,7 +257,7 @@ def vcpkg():
 function(vcpkg_cmake_configure)
     cmake_parse_arguments(PARSE_ARGV 0 arg "" SOURCE_PATH OPTIONS)
     execute_process(COMMAND ${{CMAKE_COMMAND}} -G "{generator}" -S ${{arg_SOURCE_PATH}} -B "{folder}/build"
-        -DBUILD_SHARED_LIBS=OFF {with_compilers(folder / "build")} ${{arg_OPTIONS}} COMMAND_ERROR_IS_FATAL ANY)
+        -DBUILD_SHARED_LIBS=OFF {COMPILERS_ARE_KNOWN} ${{arg_OPTIONS}} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 set(CURRENT_PACKAGES_DIR "{folder}/packages")
 include("{port}")
@@ -286,6 +289,8 @@ def pkg_config():
     static = shlex.split(run("pkg-config", "--cflags", "--libs", "--static", "candelabra", **where))
     guide([flag for flag in flags if not flag.startswith("-l")])
     main = source / "tests/package/consumer/main.c"
+    compiled = [[flag for flag in either if not flag.startswith(("-l", "-L"))] for either in (flags, static)]
+    require(set(compiled[0]) == set(compiled[1]), f"hosts would be compiled with other flags for --static: {compiled}")
     archive = [f.replace("-lcandelabra", "-l:libcandelabra.a") for f in static]
     for name, compiler in {"c": ("cc", main),
                            "cpp17": ("c++", "-std=c++17", main.with_name("host.cpp")),
@@ -321,12 +326,18 @@ def program():
     require("libcandelabra" not in libraries and not re.search("R(UN)?PATH", libraries), libraries)
 
 
+ENV_IS_CHEAP = """#!/bin/sh
+[ "$1 $2" != "-E env" ] || { shift 2; exec env "$@"; }
+exec cmake "$@"
+"""
+
+
 def debian():
     folder = clean(work / "debian")
     os.umask(0o077)  # a package is the same whatever the umask of the person who makes it
-    # Most of the time CPack would compress, and start `cmake -E env` to look at every file.
+    # CPack would spend most of its time on compression, and on starting `cmake -E env` for every file.
     folder.mkdir()
-    (folder / "cmake").write_text('#!/bin/sh\n[ "$1 $2" != "-E env" ] || { shift 2; exec env "$@"; }\nexec cmake "$@"\n')
+    (folder / "cmake").write_text(ENV_IS_CHEAP)
     (folder / "cmake").chmod(0o755)
     run("cpack", "--config", build / "CPackConfig.cmake", "-B", folder, "-D", "CPACK_DEBIAN_COMPRESSION_TYPE=none",
         "-D", f"CMAKE_COMMAND={folder}/cmake")

@@ -372,12 +372,13 @@ def refused_without_permission(folder, options):
 
 # ---- full disks -------------------------------------------------------------------------------
 
+TRUTH = ["truth", "scene.json", "--size", "32x32", "--tolerance", "1e-2", "--shadows", "off", "-q"]
 # Commands, the file name that the sentence must contain, and whether they need a device.
 WRITERS = [
-    (["truth", "scene.json", "--size", "32x32", "--tolerance", "1e-2", "--shadows", "off", "-q", "-o", "{}/x.exr"], "x.exr", False),
-    (["truth", "scene.json", "--size", "32x32", "--tolerance", "1e-2", "--shadows", "off", "-q", "-o", "{}/x.pfm"], "x.pfm", False),
-    (["truth", "scene.json", "--size", "32x32", "--tolerance", "1e-2", "--shadows", "off", "-q", "-o", "{}/x.hdr"], "x.hdr", False),
-    (["truth", "scene.json", "--size", "32x32", "--tolerance", "1e-2", "--shadows", "off", "-q", "--shard", "1/1", "-o", "{}/x.truth"], "x.truth", False),
+    ([*TRUTH, "-o", "{}/x.exr"], "x.exr", False),
+    ([*TRUTH, "-o", "{}/x.pfm"], "x.pfm", False),
+    ([*TRUTH, "-o", "{}/x.hdr"], "x.hdr", False),
+    ([*TRUTH, "--shard", "1/1", "-o", "{}/x.truth"], "x.truth", False),
     (["compare", "run.json", "run.json", "--json", "{}/x.json"], "x.json", False),
     (["diff", "dot.pfm", "dot.pfm", "--json", "{}/x.json"], "x.json", False),
     (["diff", "dot.pfm", "dot.pfm", "-q", "-o", "{}/x.png"], "x.png", False),

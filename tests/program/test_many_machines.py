@@ -16,7 +16,7 @@ program, root = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).r
 device = os.environ.get("CANDELABRA_TEST_DEVICE")
 SMALLER = {"truth": "--size 8x5 --tolerance 1e-2 --lights 200",
            "render": "--size 32x18 --lights 20" + (f" --device {shlex.quote(device)}" if device else "")}
-# Frames that another listing has rendered by the same command are copied, because a start without a GPU takes seconds.
+# Frames that another listing has rendered by the same command are copied, because a start takes seconds on llvmpipe.
 CANDELABRA = f"""#!/usr/bin/env bash
 set -eu
 case " $* " in

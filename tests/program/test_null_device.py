@@ -101,8 +101,8 @@ with tempfile.TemporaryDirectory() as folder:
         require(outcome.returncode == code and said in outcome.stdout, f"a change by {change} gives {outcome}")
 
 full = os.environ.get("CANDELABRA_FULL_TESTS") == "1"
-# Without all pipelines: shade_tiles for all lights, whose formulas other kernels share, and every kernel for spheres.
-for chosen in [[]] if full else [["--kernels", "shade_tiles"], ["--types", "sphere"]]:
+# By default, the two kernels with the most code of their own per type of light for all types, and the others for spheres.
+for chosen in [[]] if full else [["--kernels", "shade_tiles,pair_visibility"], ["--types", "sphere"]]:
     outcome = gpu_stats(*chosen, *([] if full else ["--gpus", "navi21-wave32", "--no-classes", "--methods", "conic"]))
     require(outcome.returncode == 0, f"the pipelines are not those of the record: {chosen}")
 print("\n".join(failures) or "the null device compiles, and refuses to draw")

@@ -13,13 +13,15 @@ namespace candelabra::app
 namespace
 {
 
+constexpr uint32_t mostNodesLeft = 64; // of a traversal; 2^32 items need 32 levels
 constexpr double far = std::numeric_limits<double>::infinity();
 // Balls cast the shadows of meshes. So many of their triangles face a point, and so many boxes are
 // on the way to one.
 constexpr double ballTriangles = 400;
 constexpr uint64_t ballPath = 30;
 
-// These return one of two numbers, and the other one if it is NaN. fmin and fmax would be calls.
+// lesser() and greater() return the other number if one is NaN, as std::fmin and std::fmax do,
+// which are slower, because they are calls.
 double lesser(double a, double b)
 {
     return a < b || std::isnan(b) ? a : b;
@@ -83,6 +85,8 @@ bool isInvertible(const glm::dmat4& m)
     return std::isnormal(determinant);
 }
 
+} // namespace
+
 // A shaft that many boxes are compared with.
 struct TestedShaft : Shaft {
     explicit TestedShaft(const Shaft& shaft) : Shaft(shaft) {}
@@ -106,6 +110,9 @@ private:
     glm::dvec3 inverse_ = 1.0 / axis, extent_ = glm::abs(axis);
     double length2_ = glm::dot(axis, axis);
 };
+
+namespace
+{
 
 // Tells whether the plane of a triangle has the start of the shaft and some of its end on two
 // sides. The plane of the surface from which a shaft starts has not.
@@ -174,7 +181,7 @@ void BoxTree::traverse(const Ray& ray, double& nearest, Visit&& visit) const
     if (nodes_.empty())
         return;
     const glm::dvec3 inverseDirection = 1.0 / ray.direction;
-    uint32_t stack[64]; // 2^32 items need 32 levels
+    uint32_t stack[mostNodesLeft];
     uint32_t depth = 0;
     stack[depth++] = 0;
     while (depth > 0) {
@@ -195,11 +202,10 @@ void BoxTree::traverse(const Ray& ray, double& nearest, Visit&& visit) const
 }
 
 template <typename Visit>
-uint64_t BoxTree::traverse(const Shaft& asked, Visit&& visit) const
+uint64_t BoxTree::traverse(const TestedShaft& shaft, Visit&& visit) const
 {
-    const TestedShaft shaft(asked);
     uint64_t tested = 0;
-    uint32_t stack[64]; // 2^32 items need 32 levels
+    uint32_t stack[mostNodesLeft];
     uint32_t depth = 0;
     if (!nodes_.empty())
         stack[depth++] = 0;

@@ -42,6 +42,8 @@ struct ShaftContents {
     uint64_t triangles = 0; // whose boxes the shaft touches
 };
 
+struct TestedShaft; // a Shaft, prepared for many tests
+
 // A binary tree of boxes, which may hold anything.
 class BoxTree
 {
@@ -56,7 +58,7 @@ public:
     // Calls visit(item) for every box that the shaft touches, and for some others. Returns how many
     // boxes it has tested.
     template <typename Visit>
-    uint64_t traverse(const Shaft& shaft, Visit&& visit) const;
+    uint64_t traverse(const TestedShaft& shaft, Visit&& visit) const;
 
 private:
     struct Node {

@@ -41,7 +41,7 @@ struct SeenPoint {
 std::vector<SeenPoint> seenPoints(RayCaster& caster, const Camera& camera, PixelSize size,
                                   size_t& rays)
 {
-    // One ray per tile is enough.
+    // About one ray per tile is enough.
     const auto rows =
         uint32_t(std::clamp(std::ceil(size.height / tileSide), 1.0, double(mostRows)));
     const double aspect = double(size.width) / size.height;
