@@ -152,8 +152,8 @@ TEST_P(Hosts, AreLitLikeTheNativePath)
     std::cout << "largest difference of the peak: " << worst << '\n';
 }
 
-// Every kind of depth. The format of radiance does not depend on it, so half floats are tested with
-// one, and with all in full tests.
+// Returns every kind of depth. The format of radiance does not depend on it, so half floats are
+// tested with one kind, and with all kinds in full tests.
 static std::vector<std::tuple<HostDepth, VkFormat>> hosts()
 {
     std::vector<std::tuple<HostDepth, VkFormat>> out;

@@ -44,8 +44,8 @@ def clean(folder):
     return folder
 
 
-# Makes CMake use what a build folder already says about compilers. It is not documented: a CMake that does not know it
-# looks for the compilers again.
+# This option makes CMake use what a build folder already says about compilers. CMake does not document it, and a
+# version that does not know it looks for the compilers again.
 COMPILERS_ARE_KNOWN = "-DCMAKE_PLATFORM_INFO_INITIALIZED=ON"
 
 
@@ -326,6 +326,7 @@ def program():
     require("libcandelabra" not in libraries and not re.search("R(UN)?PATH", libraries), libraries)
 
 
+# This stand-in for cmake runs `cmake -E env COMMAND` without starting CMake.
 ENV_IS_CHEAP = """#!/bin/sh
 [ "$1 $2" != "-E env" ] || { shift 2; exec env "$@"; }
 exec cmake "$@"

@@ -101,7 +101,7 @@ with tempfile.TemporaryDirectory() as folder:
         require(outcome.returncode == code and said in outcome.stdout, f"a change by {change} gives {outcome}")
 
 full = os.environ.get("CANDELABRA_FULL_TESTS") == "1"
-# By default, the two kernels with the most code of their own per type of light for all types, and the others for spheres.
+# The default run compiles shade_tiles and pair_visibility for all types of light, and the other kernels for spheres.
 for chosen in [[]] if full else [["--kernels", "shade_tiles,pair_visibility"], ["--types", "sphere"]]:
     outcome = gpu_stats(*chosen, *([] if full else ["--gpus", "navi21-wave32", "--no-classes", "--methods", "conic"]))
     require(outcome.returncode == 0, f"the pipelines are not those of the record: {chosen}")

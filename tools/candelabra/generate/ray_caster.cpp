@@ -97,7 +97,7 @@ struct TestedShaft : Shaft {
     {
         const glm::dvec3 middle = 0.5 * (box.min + box.max) - start;
         const glm::dvec3 half = 0.5 * (box.max - box.min);
-        const double leaves = (glm::dot(middle, axis) + glm::dot(half, extent_)) / length2_;
+        const double leaves = (glm::dot(middle, axis) + glm::dot(half, absoluteAxis_)) / length2_;
         if (!(leaves >= 0))
             return std::nullopt;
         const double width = glm::mix(startRadius, endRadius, std::min(leaves, 1.0));
@@ -107,7 +107,7 @@ struct TestedShaft : Shaft {
     }
 
 private:
-    glm::dvec3 inverse_ = 1.0 / axis, extent_ = glm::abs(axis);
+    glm::dvec3 inverse_ = 1.0 / axis, absoluteAxis_ = glm::abs(axis);
     double length2_ = glm::dot(axis, axis);
 };
 

@@ -31,8 +31,9 @@ double distanceToSegment(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b)
     return glm::length(a + t * d - p);
 }
 
-// Tells whether a place is inside a quadrilateral, whose edges are pairs of ends. A quadrilateral
-// with a corner behind the camera has fewer than four edges, and no place counts as inside it.
+// Tells whether the point `p` of the picture is inside a quadrilateral. `edges` holds the two ends
+// of each edge. An edge with an end behind the camera is missing from it; the function then returns
+// false.
 bool isInside(glm::dvec2 p, const std::vector<glm::dvec2>& edges)
 {
     int left = 0, right = 0;
