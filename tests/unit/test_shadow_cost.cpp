@@ -18,29 +18,32 @@ double cost(const Scene& scene, PixelSize size, bool uncut = false)
 } // namespace
 
 // The times were measured with llvmpipe (DECISIONS 86).
-TEST(ShadowCost, IsWithinTwoOrThreeTimesOfWhatWasMeasured)
+TEST(ShadowCost, IsWithinTwoTimesOfWhatWasMeasured)
 {
     const struct {
         const char* scene;
         SceneOptions options;
         PixelSize size;
         double measured;
-    } frames[] = {{"rooms", {.lights = 4000}, {640, 360}, 0.49},
-                  {"rooms", {.lights = 1500, .overlaps = 17.0}, {1280, 720}, 1.75},
-                  {"field", {.lights = 4000}, {640, 360}, 2.5},
-                  {"fence", {.lights = 4000}, {640, 360}, 3.6},
-                  {"showcase", {}, {640, 360}, 28.8},
-                  {"hall", {.lights = 4000}, {640, 360}, 42.6}};
+    } frames[] = {{"rooms", {.lights = 4000}, {640, 360}, 0.24},
+                  {"rooms", {.lights = 1500, .overlaps = 17.0}, {1280, 720}, 1.1},
+                  {"rooms", {.lights = 1500, .overlaps = 79.0}, {1280, 720}, 2.4},
+                  {"field", {.lights = 4000}, {640, 360}, 2.7},
+                  {"fence", {.lights = 4000}, {640, 360}, 4.2},
+                  {"fence", {.lights = 4000}, {1280, 720}, 10.3},
+                  {"showcase", {}, {640, 360}, 12.3},
+                  {"hall", {.lights = 4000}, {320, 180}, 7.5},
+                  {"hall", {.lights = 4000}, {1280, 720}, 81}};
     for (const auto& f : frames) {
         const double estimate = cost(generateScene(f.scene, f.options), f.size);
-        EXPECT_GT(estimate, f.measured / 2.5) << f.scene;
-        EXPECT_LT(estimate, f.measured * 2.5) << f.scene;
+        EXPECT_GT(estimate, f.measured / 2) << f.scene;
+        EXPECT_LT(estimate, f.measured * 2) << f.scene;
     }
 }
 
 TEST(ShadowCost, FollowsLightsAndPixels)
 {
-    Scene scene = generateScene("rooms", {.lights = 100});
+    Scene scene = generateScene("rooms", {.lights = 1000});
     const PixelSize size{320, 180};
     const double some = cost(scene, size);
     EXPECT_EQ(some, cost(scene, size));

@@ -24,10 +24,11 @@ constexpr uint64_t mostBoxesTested = 20000000; // then the points so far stand f
 constexpr size_t lightsPerPoint = 2;
 
 // What llvmpipe takes for a pair of a pixel and a light (DECISIONS 86), in seconds of CPU time: if
-// the light is hidden, if nothing is between it and the tile of the pixel, if a few triangles may
-// be there, and otherwise, for each box that is tested too.
-constexpr double hiddenPair = 0.05e-6, litPair = 0.1e-6, listedPair = 0.4e-6, walkedPair = 0.4e-6,
-                 walkedBox = 0.03e-6;
+// the light is hidden; if nothing is between it and the tile of the pixel; if a few triangles may
+// be there, for each box that the search of the pixel tests; and otherwise for the pair and each
+// box.
+constexpr double hiddenPair = 0.02e-6, litPair = 0.02e-6, listedBox = 0.006e-6, walkedPair = 1.2e-6,
+                 walkedBox = 0.018e-6;
 constexpr uint64_t mostListed = 6; // triangles
 constexpr double tileSide = 8;     // pixels
 
@@ -109,10 +110,12 @@ double secondsOfPair(const Scene& scene, RayCaster& caster, const Shaft& shaft, 
     fromTile.startRadius = tileRadius;
     const ShaftContents ofTile = caster.contentsOf(fromTile, ignoredLayers);
     boxes += ofTile.boxes;
-    if (ofTile.triangles <= mostListed)
-        return ofTile.triangles == 0 ? litPair : listedPair;
+    if (ofTile.triangles == 0)
+        return litPair;
     const ShaftContents ofPixel = caster.contentsOf(shaft, ignoredLayers);
     boxes += ofPixel.boxes;
+    if (ofTile.triangles <= mostListed)
+        return listedBox * double(ofPixel.boxes);
     return walkedPair + walkedBox * double(ofPixel.boxes);
 }
 
