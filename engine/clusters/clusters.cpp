@@ -23,6 +23,9 @@ constexpr VkDeviceSize pageBytes = gpu::PAGE_WORDS * sizeof(uint32_t);
 static_assert(gpu::UNLISTED_BITS + CND_LIGHT_TYPE_COUNT <= gpu::LIT_BITS &&
               gpu::LIT_BITS + CND_LIGHT_TYPE_COUNT <= gpu::CLASS_BITS);
 
+// A page has a word for each pixel of a tile (gpu::SUM_PAGES).
+static_assert(gpu::PAGE_WORDS == gpu::TILE_SIZE * gpu::TILE_SIZE);
+
 // A group of light_tree reads the children of the children of one node.
 static_assert(gpu::LIGHT_TREE_GROUP == gpu::TREE_WIDTH * gpu::TREE_WIDTH);
 
@@ -143,13 +146,15 @@ Clusters::Clusters(const gpu::Device& device, const ClusterKernels& kernels,
     entries_ = make("list entries", std::max(sizes.listBudget, 2 * pageBytes),
                     storageUse | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
     gpu::createTexelView(device, entries_, VK_FORMAT_R32_UINT, sizeof(uint32_t));
+    sums_ = make("sums of parts", (donePages() + mostParts() * gpu::SUM_PAGES) * pageBytes,
+                 storageUse | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
 }
 
-// Each list of a buffer of tiles has room for all tiles, since all may be on the same one.
-// `heights`: for how many heights there is room.
-VkDeviceSize Clusters::tileWorkBytes(uint32_t heights) const
+// Each list of a buffer of tiles has room for all tiles, since all may be on the same one, and for
+// `parts` of lists. `heights`: for how many heights there is room.
+VkDeviceSize Clusters::tileWorkBytes(uint32_t heights, uint32_t parts) const
 {
-    return workBytes(gpu::TILE_WORK_LISTS, heights * sizes_.tileClasses * maxTileCount());
+    return workBytes(gpu::TILE_WORK_LISTS, heights * sizes_.tileClasses * (maxTileCount() + parts));
 }
 
 Clusters::Lists Clusters::createLists(uint32_t type) const
@@ -157,9 +162,10 @@ Clusters::Lists Clusters::createLists(uint32_t type) const
     const auto make = [&](const char* name, VkDeviceSize bytes, VkBufferUsageFlags use) {
         return gpu::createBuffer(device_, name, bytes, use, gpu::MemoryUse::Scratch);
     };
-    return {.heads = make("list heads", clusterCount_ * sizeof(uint32_t), storageUse),
-            .lit = make("lit tiles", tileWorkBytes(tileHeightsOf(device_, type)), workUse),
-            .unlisted = make("unlisted tiles", tileWorkBytes(1), workUse)};
+    return {
+        .heads = make("list heads", clusterCount_ * sizeof(uint32_t), storageUse),
+        .lit = make("lit tiles", tileWorkBytes(tileHeightsOf(device_, type), mostParts()), workUse),
+        .unlisted = make("unlisted tiles", tileWorkBytes(1), workUse)};
 }
 
 void Clusters::grow(uint32_t lightCapacity, const LightTypeCounts& types)
@@ -238,20 +244,22 @@ void Clusters::recordReset(const gpu::Frame& f, const LightTypeCounts& types) co
         {.groupsX = listGroups(gpu::SLICE_ROW), .groupsZ = 1}};
     f.device.CmdUpdateBuffer(f.cmd, splits_.get(), 0, sizeof noSplits, noSplits);
     // In buffers without room for other heights than gpu::ANY_HEIGHT, their lists stay empty.
-    const auto reset = [&](const gpu::Buffer& work) {
+    const auto reset = [&](const gpu::Buffer& work, uint32_t parts = 0) {
         gpu::WorkList none[gpu::TILE_WORK_LISTS];
         for (uint32_t i = 0; i < gpu::TILE_WORK_LISTS; ++i) {
             const uint32_t height = i / gpu::TILE_CLASSES, tileClass = i % gpu::TILE_CLASSES;
             none[i] = {.groupsX = gpu::TILE_ROW,
                        .groupsZ = 1,
-                       .first = (height * sizes_.tileClasses + tileClass) * maxTileCount()};
+                       .first =
+                           (height * sizes_.tileClasses + tileClass) * (maxTileCount() + parts)};
         }
         f.device.CmdUpdateBuffer(f.cmd, work.get(), 0, sizeof none, none);
     };
     reset(surfaces_);
+    f.device.CmdFillBuffer(f.cmd, sums_.get(), 0, donePages() * pageBytes, 0);
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         if (types[type]) {
-            reset(lists_[type].lit);
+            reset(lists_[type].lit, mostParts());
             reset(lists_[type].unlisted);
         }
 }
@@ -339,7 +347,8 @@ gpu::ClusterListsParams Clusters::listParams(uint32_t type, const gpu::TreeShape
             .lightType = type,
             .tileCountX = tileCount.x,
             .tileCountY = tileCount.y,
-            .findsHeights = tileHeightsOf(device_, type) > 1};
+            .findsHeights = tileHeightsOf(device_, type) > 1,
+            .mostParts = mostParts()};
 }
 
 void Clusters::recordMaking(const gpu::Frame& f, const gpu::ClusterListsParams& params,

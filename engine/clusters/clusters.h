@@ -99,7 +99,8 @@ public:
     // The light lists of one light type.
     struct Lists {
         gpu::Buffer heads; // per cluster
-        gpu::Buffer lit;   // WorkLists by height and tile class: tiles with lists that hold lights
+        // WorkLists by height and tile class: tiles with lists that hold lights, and parts of lists
+        gpu::Buffer lit;
         gpu::Buffer unlisted; // WorkLists by tile class: tiles with clusters that have no list
     };
     const Lists& lists(uint32_t type) const { return lists_[type]; }
@@ -116,6 +117,7 @@ public:
     std::pair<uint32_t, uint32_t> blockClusters(glm::uvec2 tileCount) const;
     uint32_t blockPages() const; // of lists of blocks; at most
     const gpu::Buffer& entries() const { return entries_; }
+    const gpu::Buffer& sums() const { return sums_; } // of parts of lists (gpu::PART_PAGES)
     const gpu::Buffer& nodes() const { return nodes_; }
     const gpu::Buffer& splits() const { return splits_; }
     // Returns how many tiles have been split if `asked` tiles were deep: there may be room for
@@ -135,7 +137,11 @@ private:
     {
         return uint32_t(entries_.size / (gpu::PAGE_WORDS * sizeof(uint32_t)));
     }
-    VkDeviceSize tileWorkBytes(uint32_t heights) const;
+    // The parts of lists that there is room for, and the pages at the beginning of sums_ that count
+    // those that are done.
+    uint32_t mostParts() const { return pageCount() / gpu::PAGES_PER_PART; }
+    uint32_t donePages() const { return std::max(mostParts() / 2, 1u); }
+    VkDeviceSize tileWorkBytes(uint32_t heights, uint32_t parts = 0) const;
     Lists createLists(uint32_t type) const;
     uint32_t listGroups(uint32_t lists) const noexcept;
     gpu::ClusterListsParams listParams(uint32_t type, const gpu::TreeShape& tree,
@@ -152,7 +158,7 @@ private:
     gpu::Bindings listSets_;                                    // per slot and type
     gpu::Buffer nodes_;                                         // of the light trees
     gpu::Buffer tiles_, clusters_, surfaces_, splits_;
-    gpu::Buffer entries_;
+    gpu::Buffer entries_, sums_;
     Lists lists_[CND_LIGHT_TYPE_COUNT];
 };
 

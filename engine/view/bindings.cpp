@@ -139,7 +139,8 @@ void View::writeShadeBindings(const CndLightingFrame& frame, const surfaces::GBu
     }
     sets_.shadeTiles.write(set,
                            {core, coreWords, shapes, ids, depth, uniforms, radiance, dfg, tiles,
-                            heads, entries, entryTexels, toShade},
+                            heads, entries, entryTexels, Binding::of(SHADE_SUMS, clusters_.sums()),
+                            toShade},
                            listed);
     sets_.shadeUnlisted.write(set,
                               {core, coreWords, shapes, ids, depth, uniforms, radiance, dfg, tiles,

@@ -58,6 +58,8 @@ void main()
     const bool surface = inside && depth != frameParams.clearDepth;
     uint listed = 0u, evaluated = 0u, influenced = 0u, contributing = 0u;
     Block block = surface ? beginWalk(params.batch, tile, depth) : Block(0u, 0u, 0u);
+    if (block.count == 0u && block.next != 0u) // several groups share the list
+        block = nextBlock(params.batch, block);
     Receiver r;
     if (surface)
         r = makeReceiver(readShadingPoint(pixel, depth), 1u, 0u);

@@ -11,7 +11,7 @@ layout(push_constant, scalar) uniform Push
     ShadeTilesParams params;
 };
 
-#include "kernels/common/tile_walk.glsl"
+#include "kernels/common/part_of_list.glsl"
 #ifdef SHADOWS
 #include "kernels/common/visible_shares_at.glsl"
 #endif
@@ -27,33 +27,47 @@ Receiver receiverAt(uvec2 pixel, float depth)
     return makeReceiver(readShadingPoint(pixel, depth), frameParams.sampleCount, pixelSeed(pixel));
 }
 
-// Each lane evaluates all lights of its pixel.
-void shade(uint tile, uvec2 pixel, float depth)
+// Each lane evaluates all lights of its pixel, or those of a part of its list.
+void shade(TileWork work, uvec2 pixel, float depth)
 {
-    Block block = beginWalk(params.batch, tile, depth);
-    if (block.count == 0u)
+    Block block = beginWalk(params.batch, work.tile, depth);
+    if (work.list != 0u) {
+        if (block.first != work.list * PAGE_WORDS + 1u) // the pixel has another list
+            return;
+        block = partBlock(params.batch, work);
+    } else if (block.count == 0u)
         return;
     const Receiver r = receiverAt(pixel, depth);
     const uint packedPixel = pixel.y << 16 | pixel.x; // in one register instead of two
     keep(r);
     Sums sums = noLight();
+    uint pages = 0u; // that have been walked
     do {
         shadeBlock(sums, r, block.first, block.count, true);
+        ++pages;
+        if (work.list != 0u && pages == PART_PAGES)
+            block.next = 0u;
         block = nextBlock(params.batch, block);
     } while (block.count != 0u);
-    addRadiance(uvec2(packedPixel & 0xFFFFu, packedPixel >> 16), total(sums));
+    vec3 light = total(sums);
+    if (work.list != 0u && !sumOfParts(work, light))
+        return;
+    addRadiance(uvec2(packedPixel & 0xFFFFu, packedPixel >> 16), light);
 }
 
 void main()
 {
-    uint tile;
-    uvec2 pixel;
-    if (!takeTile(tile, pixel))
+    uint place;
+    if (!takeWork(place))
+        return;
+    const TileWork work = tileWork(place);
+    const uvec2 pixel = pixelOfTile(work.tile);
+    if (any(greaterThanEqual(pixel, frameParams.size)))
         return;
 #ifdef SHADOWS
-    walkedTile = tile;
+    walkedTile = work.tile;
 #endif
     const float depth = texelFetch(depthImage, depthTexelOf(pixel), 0).x;
     if (depth != frameParams.clearDepth)
-        shade(tile, pixel, depth);
+        shade(work, pixel, depth);
 }

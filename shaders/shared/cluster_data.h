@@ -75,6 +75,20 @@ const uint UNSPLIT = 31u; // shift of a tile with one cluster
 const uint PAGE_WORDS = 64u;
 const uint PAGE_LIGHTS = 63u;
 const uint PAGE_COUNT_BITS = 6u;
+// The fewest lights of a page that is not the last of its list (kernels/cpu/cluster_lists.comp).
+const uint LEAST_PAGE_LIGHTS = PAGE_LIGHTS - TREE_WIDTH + 1u;
+// Several groups share the list of a tile or slice that has more lights than SHARED_FROM. Each
+// shades a part of PART_PAGES pages, and the last to end adds the sums of all parts in their order.
+// Such a list begins with a page without lights. The words after its header are the tile, the
+// number of parts, the place of the first part in litTiles, and where in the buffer of sums those
+// are that count the parts for each pixel, and the sums of the first part. The parts are on the
+// work list of their tile, each as the first page of the list with the bit PART_OF_LIST. A list
+// without room for its sums is not shared.
+const uint PART_PAGES = 16u;
+const uint SHARED_FROM = PART_PAGES * PAGE_LIGHTS;
+const uint SUM_PAGES = 3u; // of a part: a colour per pixel of the tile
+const uint PART_OF_LIST = 0x80000000u;
+const uint PAGES_PER_PART = 32u; // there is room for the sums of one part per so many pages
 // Heads of lists without pages.
 const uint LIST_EMPTY = 0u;
 const uint LIST_UNLISTED = 0xFFFFFFFFu; // no page was left: the tree is walked per pixel
@@ -162,8 +176,9 @@ struct ClusterListsParams {
     uint firstCluster, clusterCount;
     uint tileCountX, tileCountY;
     uint findsHeights; // 1: lanes by themselves find the heights of unsplit tiles
+    uint mostParts;    // parts of lists that there is room for
 };
-GPU_SIZE(ClusterListsParams, 56)
+GPU_SIZE(ClusterListsParams, 60)
 
 GPU_END
 

@@ -112,6 +112,7 @@ const float ABOVE_FROM = 2.0f;
 struct LightingCounters {
     uint pageCursor;                      // pages in use; page 0 is never used
     uint missingPages, missingBlockPages; // that lists of tiles and of blocks lacked, at most
+    uint parts; // of lists that several groups share, also those without room
     uint listEntries;
     uint maxListLength;
     uint unlistedClusters;
@@ -125,7 +126,7 @@ struct LightingCounters {
     uvec2 insidePairs;
     uvec2 contributingPairs;
 };
-GPU_SIZE(LightingCounters, 80)
+GPU_SIZE(LightingCounters, 84)
 
 // --- prepare_lights: transforms lights to view space, one lane per light
 const uint PREPARE_LIGHTS_GROUP = 64u;
@@ -162,6 +163,7 @@ const uint SHADE_ENTRIES = 11u;
 const uint SHADE_WORK = 12u;         // TILE_WORK_LISTS WorkLists: the tiles to shade
 const uint SHADE_COUNTERS = 13u;     // count_pairs
 const uint SHADE_ENTRY_TEXELS = 22u; // the same buffer as SHADE_ENTRIES
+const uint SHADE_SUMS = 24u;         // sums of parts of lists
 const uint PIXEL_OF_TILE = 1u;       // the values of CndPixelClass
 const uint PIXEL_OF_SLICE = 2u;
 const uint PIXEL_UNLISTED = 3u;

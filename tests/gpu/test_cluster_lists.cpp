@@ -172,7 +172,7 @@ Scene blockScene(uint32_t seed, float reach, float share)
     return s;
 }
 
-// Returns the tiles of `count` work lists from `first` on, sorted.
+// Returns the tiles of `count` work lists from `first` on, without parts of lists, sorted.
 std::vector<uint32_t> tilesOf(const gpu::Buffer& work, uint32_t first = 0,
                               uint32_t count = gpu::TILE_WORK_LISTS)
 {
@@ -181,7 +181,8 @@ std::vector<uint32_t> tilesOf(const gpu::Buffer& work, uint32_t first = 0,
         words.data() + gpu::TILE_WORK_LISTS * sizeof(gpu::WorkList) / sizeof(uint32_t);
     std::vector<uint32_t> out;
     for (const gpu::WorkList& list : work.as<gpu::WorkList>().subspan(first, count))
-        out.insert(out.end(), tiles + list.first, tiles + list.first + list.count);
+        std::copy_if(tiles + list.first, tiles + list.first + list.count, std::back_inserter(out),
+                     [](uint32_t tile) { return tile < Scene::tiles; });
     std::ranges::sort(out);
     return out;
 }
@@ -211,19 +212,19 @@ protected:
     Made make(const Scene& s, Form form, const Limits& limits = {});
 
 private:
-    gpu::Buffer workOfTiles(const char* name) const;
+    gpu::Buffer workOfTiles(const char* name, uint32_t parts = 0) const;
     void recordTree(const gpu::Frame& f, const Scene& s, const gpu::Kernel<gpu::LightTreeParams>& k,
                     VkDescriptorSet set, Form form);
     void recordLists(const gpu::Frame& f, const Scene& s, const Limits& limits,
                      const gpu::Kernel<gpu::ClusterListsParams>& k, VkDescriptorSet set, Form form);
 };
 
-gpu::Buffer ClusterListsTest::workOfTiles(const char* name) const
+gpu::Buffer ClusterListsTest::workOfTiles(const char* name, uint32_t parts) const
 {
-    gpu::Buffer work =
-        readback(name, gpu::TILE_WORK_LISTS * (sizeof(gpu::WorkList) + 4 * Scene::tiles));
+    const uint32_t room = Scene::tiles + parts;
+    gpu::Buffer work = readback(name, gpu::TILE_WORK_LISTS * (sizeof(gpu::WorkList) + 4 * room));
     for (uint32_t i = 0; i < gpu::TILE_WORK_LISTS; ++i)
-        work.as<gpu::WorkList>()[i].first = i * Scene::tiles;
+        work.as<gpu::WorkList>()[i].first = i * room;
     return work;
 }
 
@@ -259,7 +260,8 @@ void ClusterListsTest::recordLists(const gpu::Frame& f, const Scene& s, const Li
                               .lightType = 2,
                               .tileCountX = Scene::tileCount.x,
                               .tileCountY = Scene::tileCount.y,
-                              .findsHeights = limits.findsHeights};
+                              .findsHeights = limits.findsHeights,
+                              .mostParts = limits.pages / gpu::PAGES_PER_PART};
     const auto dispatch = [&](uint32_t which, uint32_t first, uint32_t count, uint32_t lists) {
         p.which = which;
         p.firstCluster = first;
@@ -291,7 +293,8 @@ Made ClusterListsTest::make(const Scene& s, Form form, const Limits& limits)
     const Buffer heads = readback("heads", Scene::clusters * sizeof(uint32_t));
     const Buffer entries = readback("entries", limits.pages * PAGE_WORDS * sizeof(uint32_t));
     const Buffer counters = readback("counters", sizeof(LightingCounters));
-    const Buffer lit = workOfTiles("lit"), unlisted = workOfTiles("unlisted");
+    const Buffer lit = workOfTiles("lit", limits.pages / PAGES_PER_PART);
+    const Buffer unlisted = workOfTiles("unlisted");
 
     // Both ways to read lights, one with each form, as far as texel buffers are large enough.
     const bool fit = std::max(core.size, nodes.size) / sizeof(glm::vec4) <=

@@ -11,6 +11,7 @@
 #include "gpu/lighting_harness.h"
 #include "gpu/random_frame.h"
 #include "harness/full_tests.h"
+#include "shared/cluster_data.h"
 
 namespace candelabra::test
 {
@@ -510,6 +511,39 @@ TEST_F(VisibilityFrames, WhatNothingHidesHasTheSameBits)
     EXPECT_EQ(uint64_t(sum.x), shadowed.stats.askedPairs);
     EXPECT_EQ(uint64_t(sum.y), shadowed.stats.partlyLitPairs);
     EXPECT_EQ(uint64_t(sum.z), shadowed.stats.darkPairs);
+}
+
+// Each light of a list that several groups share keeps its slot.
+TEST_F(VisibilityFrames, SharedListsHaveTheirShadows)
+{
+    size_t pixel = surfaces.depth.size() / 2 + surfaces.width / 2;
+    while (surfaces.depth[pixel] == surfaces.clearDepth)
+        ++pixel;
+    const glm::dvec3 p =
+        viewPosition(surfaces, uint32_t(pixel % surfaces.width), uint32_t(pixel / surfaces.width)) +
+        0.2 * storedNormal(surfaces, pixel);
+    std::vector<CndLight> lights = randomSpheres(surfaces, gpu::SHARED_FROM + 200, 3);
+    for (CndLight& light : lights) {
+        for (int k = 0; k < 3; ++k)
+            light.position[k] = float(p[k] + uniform(-0.1, 0.1));
+        light.radius = 0.02f;
+        light.influenceRadius = 0.5f;
+    }
+    addOccluders(3, 2);
+    CndOccluderInstance near = someInstance(meshes_.back(), 0);
+    for (int k = 0; k < 12; ++k)
+        near.worldFromMesh[k] = k % 4 == 3 ? float(p[k / 4]) : 0.2f * near.worldFromMesh[k];
+    addInstances({near});
+    const LightingResult shared = draw(lights);
+    EXPECT_GT(shared.stats.maxListLength, gpu::SHARED_FROM);
+    EXPECT_EQ(shared.stats.unlistedClusters, 0u);
+    const LightingResult walked = draw(lights, {.listBudget = 4096});
+    EXPECT_GT(walked.stats.unlistedClusters, 0u);
+    EXPECT_TRUE(agree(shared.radiance, walked.radiance, batchesOnLlvmpipe));
+    EXPECT_TRUE(sameBits(draw(lights, {.frames = 3, .unchanged = true}), shared));
+    RunOptions off;
+    off.withFrame = [](CndLightingFrame& frame) { frame.shadowsOff = VK_TRUE; };
+    EXPECT_FALSE(sameBits(draw(lights, off), shared));
 }
 
 TEST_F(VisibilityFrames, LightsIgnoreTheOccludersThatTheyName)

@@ -76,6 +76,19 @@ void appendLit(uint tile, uint height)
     APPEND_TILE(lit, litTiles, tile, LIT_BITS, height)
 }
 
+// Appends the parts of a list to the work list of its tile. Returns the place of the first one.
+uint appendParts(uint tile, uint height, uint entry, uint parts)
+{
+    const uint work = height * TILE_CLASSES + (tiles[tile].onLists >> CLASS_BITS);
+    const uint before = atomicAdd(lit[work].count, parts);
+    const uint rows = (before + TILE_ROW - 1u) / TILE_ROW;
+    atomicAdd(lit[work].groupsY, (before + parts + TILE_ROW - 1u) / TILE_ROW - rows);
+    const uint first = lit[work].first + before;
+    for (uint i = 0u; i < parts; ++i)
+        litTiles[first + i] = entry;
+    return first;
+}
+
 #include "kernels/common/append_unlisted.glsl"
 
 #endif

@@ -61,12 +61,36 @@ void appendTile(uint tile, ListWriter list, bool tooLong, uint height)
     atomicMax(counters.maxListLength, list.found);
 }
 
-// Counts the pages of a list that found too few. Pages may lack their last lights
-// (kernels/cpu/cluster_lists.comp).
+// Returns how many parts the list has if several groups share it. Pages may lack their last lights.
+uint partsOf(ListWriter list)
+{
+    const uint least = PART_PAGES * LEAST_PAGE_LIGHTS;
+    return (list.found + least - 1u) / least;
+}
+
+// Lets several groups share a complete list, if there is room, and returns its first page. `height`:
+// that of the tile.
+uint shareList(ListWriter list, uint tile, uint height)
+{
+    const uint parts = partsOf(list);
+    const uint part = atomicAdd(counters.parts, parts);
+    const uint first = part + parts <= params.mostParts ? reservePage() : NO_PAGE;
+    if (first == NO_PAGE)
+        return list.headPage;
+    const uint words = first * PAGE_WORDS;
+    entries[words] = pageHeader(0u, list.headPage);
+    entries[words + 1u] = tile;
+    entries[words + 2u] = parts;
+    entries[words + 3u] = appendParts(tile, height, PART_OF_LIST | first, parts);
+    entries[words + 4u] = part / 2u * PAGE_WORDS; // a list has two parts at least
+    entries[words + 5u] = (params.mostParts / 2u + part * SUM_PAGES) * PAGE_WORDS;
+    return first;
+}
+
+// Counts the pages of a list that found too few.
 void countMissing(ListWriter list)
 {
-    const uint least = PAGE_LIGHTS - TREE_WIDTH + 1u;
-    const uint pages = (list.found + least - 1u) / least;
+    const uint pages = (list.found + LEAST_PAGE_LIGHTS - 1u) / LEAST_PAGE_LIGHTS;
     if (params.which == LISTS_OF_BLOCKS)
         atomicAdd(counters.missingBlockPages, pages);
     else
@@ -76,7 +100,9 @@ void countMissing(ListWriter list)
 // Completes the list of a cluster, which belongs to `tile` unless it is a block's.
 void completeList(uint at, uint tile, ListWriter list, bool tooLong, uint height)
 {
-    lists[at] = endList(list, tooLong);
+    const bool shares = params.which != LISTS_OF_BLOCKS && list.found > SHARED_FROM;
+    const uint head = endList(list, tooLong);
+    lists[at] = shares && !tooLong && !list.full ? shareList(list, tile, height) : head;
     if (list.full && list.found <= params.longest)
         countMissing(list);
     if (params.which != LISTS_OF_BLOCKS)

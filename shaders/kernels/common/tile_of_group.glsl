@@ -27,14 +27,12 @@ layout(scalar, binding = SHADE_WORK) readonly buffer Work
 
 #include "kernels/common/cluster_of_depth.glsl"
 
-// Sets the tile of this workgroup and the pixel of this lane. Returns false after the last tile and
-// outside the image.
-bool takeTile(out uint tile, out uvec2 pixel)
+// Sets `place` to the place in workTiles of what this workgroup shades. Returns false after the last.
+bool takeWork(out uint place)
 {
     const WorkList work = works[tileHeight * TILE_CLASSES + tileClass];
     const uint at = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-    tile = 0u;
-    pixel = uvec2(0u);
+    place = 0u;
     if (at >= work.count)
         return false;
     // Split tiles, which take longest, are at the end of the list. Tiles are taken from there, so that
@@ -42,8 +40,27 @@ bool takeTile(out uint tile, out uvec2 pixel)
     // some devices divide the groups into equal consecutive shares.
     const uint firsts = (work.count + 1u) / 2u;
     const uint fromEnd = at < firsts ? 2u * at : 2u * (at - firsts) + 1u;
-    tile = workTiles[work.first + work.count - 1u - fromEnd];
-    pixel = firstPixelOfTile(tile, frameParams.size.x) + pixelOfLane(gl_LocalInvocationIndex);
+    place = work.first + work.count - 1u - fromEnd;
+    return true;
+}
+
+// Returns the pixel of this lane, which may be outside the image.
+uvec2 pixelOfTile(uint tile)
+{
+    return firstPixelOfTile(tile, frameParams.size.x) + pixelOfLane(gl_LocalInvocationIndex);
+}
+
+// Sets the tile of this workgroup and the pixel of this lane. Returns false after the last tile and
+// outside the image.
+bool takeTile(out uint tile, out uvec2 pixel)
+{
+    uint place;
+    tile = 0u;
+    pixel = uvec2(0u);
+    if (!takeWork(place))
+        return false;
+    tile = workTiles[place];
+    pixel = pixelOfTile(tile);
     return all(lessThan(pixel, frameParams.size));
 }
 

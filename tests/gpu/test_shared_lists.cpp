@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lists of more lights than gpu::SHARED_FROM, whose parts are shaded by different groups.
+#include "gpu/gpu_like_device.h"
+#include "gpu/lighting_harness.h"
+#include "gpu/two_classes.h"
+#include "shared/cluster_data.h"
+
+#include <limits>
+
+namespace candelabra::test
+{
+namespace
+{
+
+// Lights that reach every surface.
+std::vector<CndLight> uncut(std::vector<CndLight> lights)
+{
+    for (CndLight& light : lights)
+        light.influenceRadius = std::numeric_limits<float>::infinity();
+    return lights;
+}
+
+class SharedLists : public LightingTest
+{
+protected:
+    // Expects the light of brute force, with the same bits in all runs and in frames that keep
+    // their lists.
+    void expectLight(const CpuGBuffer& g, const std::vector<CndLight>& lights, RunOptions options)
+    {
+        RunOptions brute = options;
+        brute.culling = CND_CULLING_BRUTE;
+        const LightingResult expected = run(g, lights, brute), first = run(g, lights, options);
+        EXPECT_GT(first.stats.maxListLength, gpu::SHARED_FROM);
+        EXPECT_EQ(first.stats.unlistedClusters, 0u);
+        EXPECT_TRUE(agree(first.radiance, expected.radiance, batchesOnLlvmpipe));
+        EXPECT_TRUE(sameBits(run(g, lights, options), first));
+        options.frames = 3;
+        options.unchanged = true;
+        EXPECT_TRUE(sameBits(run(g, lights, options), first));
+        options.countPairs = true;
+        const CndLightingStats counted = run(g, lights, options).stats;
+        EXPECT_GE(counted.listedPairs, counted.maxListLength);
+    }
+    const CpuGBuffer surfaces = randomGBuffer(24, 16, 5);
+};
+
+} // namespace
+
+TEST_F(SharedLists, HoldTheLightOfEveryType)
+{
+    const CndDeviceDesc gpu = gpuLike(deviceDesc());
+    RunOptions byGroups;
+    byGroups.host = &gpu;
+    byGroups.lighting = createFor(byGroups);
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
+        if (type == CND_LIGHT_DIRECTIONAL || type == CND_LIGHT_DISTANT_SPHERE)
+            continue; // they are in no list
+        SCOPED_TRACE(type);
+        const auto lights = uncut(lightsOf(CndLightType(type), surfaces, 2000, type + 1));
+        expectLight(surfaces, lights, byGroups);
+        // So many lights of other types are too many for llvmpipe's loops.
+        if (type == CND_LIGHT_SPHERE || type == CND_LIGHT_POINT || type == CND_LIGHT_SPOT)
+            expectLight(surfaces, lights, {});
+    }
+    cndDestroyLighting(byGroups.lighting);
+}
+
+TEST_F(SharedLists, MayBeOfBothClasses)
+{
+    const CpuGBuffer g = twoClasses(48, 16);
+    expectLight(g, uncut(randomSpheres(g, 1500, 3)), {.diffuseOnlyTiles = true});
+}
+
+TEST_F(SharedLists, OneGroupWalksAsManyLightsAsBefore)
+{
+    auto lights = uncut(randomSpheres(surfaces, gpu::SHARED_FROM, 3));
+    const LightingResult brute = run(surfaces, lights, {.culling = CND_CULLING_BRUTE});
+    EXPECT_TRUE(agree(run(surfaces, lights).radiance, brute.radiance));
+}
+
+TEST_F(SharedLists, ALackOfRoomLosesNothing)
+{
+    const CpuGBuffer tile = randomGBuffer(8, 8, 5);
+    const auto lights = uncut(randomSpheres(tile, 2000, 3));
+    const LightingResult brute = run(tile, lights, {.culling = CND_CULLING_BRUTE});
+    uint32_t unlisted = 0, whole = 0, shared = 0;
+    for (uint32_t pages = 8; pages < 160; pages += 8) {
+        const LightingResult few =
+            run(tile, lights, {.listBudget = pages * gpu::PAGE_WORDS * sizeof(uint32_t)});
+        EXPECT_TRUE(agree(few.radiance, brute.radiance, batchesOnLlvmpipe)) << pages;
+        const bool asBrute = sameBits(few, brute);
+        ++(few.stats.unlistedClusters ? unlisted : asBrute ? whole : shared);
+    }
+    EXPECT_GT(unlisted, 0u);
+    EXPECT_GT(shared, 0u);
+    if (device().lanesAreCpuVector) { // elsewhere brute force has other bits than a list
+        EXPECT_GT(whole, 0u);
+    }
+}
+
+} // namespace candelabra::test
