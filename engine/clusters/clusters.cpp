@@ -364,7 +364,7 @@ void Clusters::recordBlockLists(const gpu::Frame& f, uint32_t type, const gpu::T
 {
     gpu::ClusterListsParams params = listParams(type, tree, tileCount);
     params.pageCount = blockPages();
-    params.longest = forProofs ? longestProvenList : longestBlockList;
+    params.longest = params.longestShared = forProofs ? longestProvenList : longestBlockList;
     params.which = gpu::LISTS_OF_BLOCKS;
     std::tie(params.firstCluster, params.clusterCount) = blockClusters(tileCount);
     recordMaking(f, params, params.clusterCount);
@@ -375,6 +375,9 @@ void Clusters::recordLists(const gpu::Frame& f, uint32_t type, const gpu::TreeSh
 {
     gpu::ClusterListsParams params = listParams(type, tree, tileCount);
     params.longest = longest;
+    // Parts are short. But count_pairs walks the whole list, and takes two turns for each light.
+    params.longestShared =
+        longest > gpu::SHARED_FROM ? std::max(longest, params.maxSteps / 2) : longest;
     params.which = gpu::LISTS_OF_TILES;
     recordMaking(f, params, area(blocksOf(tileCount)) * gpu::BLOCK_SIDE * gpu::BLOCK_SIDE);
     params.which = gpu::LISTS_OF_SLICES;

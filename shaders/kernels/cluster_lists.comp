@@ -34,7 +34,7 @@ void main()
     const uint shortLists = makeShortLists(group);
     if ((shortLists & (1u << lane)) != 0u) {
         const ListWriter list = shortList(lane);
-        completeList(setCluster[lane], clusters[setCluster[lane]].tile, list,
-                     list.found > params.longest, ANY_HEIGHT);
+        completeList(setCluster[lane], clusters[setCluster[lane]].tile, list, isTooLong(list),
+                     ANY_HEIGHT);
     }
 }

@@ -177,8 +177,11 @@ struct ClusterListsParams {
     uint tileCountX, tileCountY;
     uint findsHeights; // 1: lanes by themselves find the heights of unsplit tiles
     uint mostParts;    // parts of lists that there is room for
+    // Longer lists than `longest` are useful only if several groups share them, and have at most so
+    // many lights.
+    uint longestShared;
 };
-GPU_SIZE(ClusterListsParams, 60)
+GPU_SIZE(ClusterListsParams, 64)
 
 GPU_END
 

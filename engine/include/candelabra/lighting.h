@@ -196,7 +196,8 @@ typedef struct CndLightingViewDesc {
     // Bytes for the light lists of a frame, 0: default, 64 MiB (less if the device's
     // maxStorageBufferRange is smaller). Clusters whose lists do not fit are shaded by walking the
     // light tree. This is slower and gives the same image except for rounding.
-    // CndLightingStats::unlistedClusters counts these clusters.
+    // CndLightingStats::unlistedClusters counts these clusters. Beside the budget, the sums of
+    // parts of long lists take a ninth of it.
     VkDeviceSize listBudget;
     // Bytes for what pixels see of lights, with CndLightingDesc::shadows. Every light on the list
     // of a cluster takes 256 of them, unless it is seen wholly or is proven to be hidden. Each 256

@@ -123,7 +123,7 @@ bool listOfGroup(inout ListWriter list, ClusterBounds bounds, uint parent, bool 
         list.found = 0u;
         complete = complete && searchTree(list, bounds, isBlock, steps);
     }
-    return !complete || list.found > params.longest ||
+    return !complete || isTooLong(list) ||
            (!isBlock && list.full && steps >= params.maxUnlistedSteps);
 }
 

@@ -36,6 +36,12 @@ bool isUseless(ListWriter list)
     return list.found > params.longest;
 }
 
+// Tells whether the list has more lights than loops can walk.
+bool isTooLong(ListWriter list)
+{
+    return list.found > (list.full ? params.longest : params.longestShared);
+}
+
 // Completes the last page and returns the head of the list: its first page, or which kind of list
 // without pages it is.
 uint endList(ListWriter list, bool tooLong)
@@ -100,9 +106,15 @@ void countMissing(ListWriter list)
 // Completes the list of a cluster, which belongs to `tile` unless it is a block's.
 void completeList(uint at, uint tile, ListWriter list, bool tooLong, uint height)
 {
-    const bool shares = params.which != LISTS_OF_BLOCKS && list.found > SHARED_FROM;
-    const uint head = endList(list, tooLong);
-    lists[at] = shares && !tooLong && !list.full ? shareList(list, tile, height) : head;
+    uint head = endList(list, tooLong);
+    if (params.which != LISTS_OF_BLOCKS && list.found > SHARED_FROM && !tooLong && !list.full) {
+        head = shareList(list, tile, height);
+        if (head == list.headPage && list.found > params.longest) {
+            tooLong = true;
+            head = LIST_LONG;
+        }
+    }
+    lists[at] = head;
     if (list.full && list.found <= params.longest)
         countMissing(list);
     if (params.which != LISTS_OF_BLOCKS)

@@ -130,7 +130,7 @@ bool makeList(inout LaneList l, uint parent)
     if (byParent && measure)
         l.steps = l.list.found = 0u;
     cut = searchTree(l, byParent && !measure) || cut;
-    return cut || l.list.found > params.longest ||
+    return cut || isTooLong(l.list) ||
            (!l.isBlock && l.list.full && l.steps >= params.maxUnlistedSteps);
 }
 
