@@ -71,7 +71,7 @@ require("LEFT OUT for lack of time: profile_hall_200_64x36" in short, "what was 
 page = (work / "short/gpu_check.html").read_text()
 for wanted in ("the hall, 200 lights, 64x36</td><td><b>left out</b>, because the time ran out</td>",
                "<code>run correctness</code> adds it to this page",
-               "<code>Linux</code> is in ./gpu_check-performance/logs/machine.log."):
+               "<code>Linux</code> is in gpu_check-performance/logs/machine.log."):
     require(wanted in page, f"the page of the short run lacks {wanted!r}")
 page = (work / "results/gpu_check.html").read_text()
 for wanted in ("<p>Everything ran and passed.</p>", " passed, 0 failed, 0 skipped, 0 stopped, 0 not run",
