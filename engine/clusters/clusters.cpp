@@ -329,8 +329,10 @@ uint32_t Clusters::blockPages() const
 
 VkDeviceSize Clusters::missingBytes(const gpu::LightingCounters& counters) const
 {
-    const VkDeviceSize pages =
+    VkDeviceSize pages =
         counters.missingBlockPages ? 2ull * counters.missingBlockPages : counters.missingPages;
+    if (!pages && counters.parts > mostParts())
+        pages = VkDeviceSize(counters.parts) * gpu::PAGES_PER_PART - pageCount();
     return pages * pageBytes;
 }
 

@@ -133,9 +133,9 @@ Lighting::Lighting(const CndDeviceDesc& device, const CndLightingDesc& desc)
 
     if (const uint32_t batch = lightsPerBatch(device_, 0); batch != UINT32_MAX)
         device_.say(CND_MESSAGE_INFO,
-                    "cndCreateLighting: the device ends loops after %u iterations: lists of more "
-                    "than %u sphere lights, or of fewer lights of other types, are shaded in "
-                    "parts, slower",
+                    "cndCreateLighting: the device ends loops after %u iterations: brute force of "
+                    "more than %u sphere lights, or of fewer lights of other types, is shaded in "
+                    "parts, and so are very long lists, slower",
                     device_.maxLoopIterations, batch);
     if (device_.lanesAreCpuVector && !texelBuffersSuffice(device_.limits))
         device_.say(CND_MESSAGE_INFO,

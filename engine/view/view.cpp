@@ -245,13 +245,15 @@ void View::reportMissing(const CndLightingStats& stats) const noexcept
                 needed, sizeof needed, ", and about %llu would do%s", (unsigned long long)enough,
                 enough > device.limits.maxStorageBufferRange ? ", more than maxStorageBufferRange"
                                                              : "");
-        char clusters[40] = "blocks of clusters";
+        char what[80] = "blocks of clusters have no list, or long lists are not shared";
         if (stats.unlistedClusters)
-            std::snprintf(clusters, sizeof clusters, "%u clusters", stats.unlistedClusters);
+            std::snprintf(what, sizeof what, "%u clusters have no list", stats.unlistedClusters);
         device.say(CND_MESSAGE_WARNING,
-                   "cndGetLightingStats: %s have no list, because CndLightingViewDesc::%s, %llu "
-                   "bytes, was used up%s: they walk the light tree, slower",
-                   clusters, member, (unsigned long long)budget, needed);
+                   "cndGetLightingStats: %s, because CndLightingViewDesc::%s, %llu bytes, was "
+                   "used up%s: %s",
+                   what, member, (unsigned long long)budget, needed,
+                   stats.unlistedClusters ? "they walk the light tree, slower"
+                                          : "frames take longer");
     };
     if (stats.missingListBytes && !std::exchange(told_.pages, true))
         tell("listBudget", desc_.listBudget, desc_.listBudget + stats.missingListBytes);

@@ -79,11 +79,12 @@ const uint PAGE_COUNT_BITS = 6u;
 const uint LEAST_PAGE_LIGHTS = PAGE_LIGHTS - TREE_WIDTH + 1u;
 // Several groups share the list of a tile or slice that has more lights than SHARED_FROM. Each
 // shades a part of PART_PAGES pages, and the last to end adds the sums of all parts in their order.
-// Such a list begins with a page without lights. The words after its header are the tile, the
-// number of parts, the place of the first part in litTiles, and where in the buffer of sums those
-// are that count the parts for each pixel, and the sums of the first part. The parts are on the
-// work list of their tile, each as the first page of the list with the bit PART_OF_LIST. A list
-// without room for its sums is not shared.
+// Such a list begins with a page without lights. Five words follow its header: the tile, the number
+// of parts, the place of the first part in litTiles, and two indices into the buffer of sums. The
+// first index is that of a counter per pixel, which counts the parts that are done. The second one
+// is that of the sums of the first part. The parts are on the work list of their tile, each as the
+// first page of the list with the bit PART_OF_LIST. A list without room for its sums or for that
+// page is not shared.
 const uint PART_PAGES = 16u;
 const uint SHARED_FROM = PART_PAGES * PAGE_LIGHTS;
 const uint SUM_PAGES = 3u; // of a part: a colour per pixel of the tile
@@ -92,8 +93,9 @@ const uint PAGES_PER_PART = 32u; // there is room for the sums of one part per s
 // Heads of lists without pages.
 const uint LIST_EMPTY = 0u;
 const uint LIST_UNLISTED = 0xFFFFFFFFu; // no page was left: the tree is walked per pixel
-// The list of a tile or slice is too long for a loop, and its pixels walk the tree in parts. The
-// list of a block is too long to be of use, and the clusters in the block are found in the tree.
+// The list of a tile or slice is too long for a loop and not shared, and its pixels walk the tree
+// in parts. The list of a block is too long to be of use, and the clusters in the block are found
+// in the tree.
 const uint LIST_LONG = 0xFFFFFFFEu;
 
 // Arguments of an indirect dispatch and the range of indices that it works on. A buffer begins with
@@ -177,8 +179,7 @@ struct ClusterListsParams {
     uint tileCountX, tileCountY;
     uint findsHeights; // 1: lanes by themselves find the heights of unsplit tiles
     uint mostParts;    // parts of lists that there is room for
-    // Longer lists than `longest` are useful only if several groups share them, and have at most so
-    // many lights.
+    // The most lights of a list that several groups share. It is at least `longest`.
     uint longestShared;
 };
 GPU_SIZE(ClusterListsParams, 64)

@@ -261,7 +261,8 @@ void ClusterListsTest::recordLists(const gpu::Frame& f, const Scene& s, const Li
                               .tileCountX = Scene::tileCount.x,
                               .tileCountY = Scene::tileCount.y,
                               .findsHeights = limits.findsHeights,
-                              .mostParts = limits.pages / gpu::PAGES_PER_PART};
+                              .mostParts = limits.pages / gpu::PAGES_PER_PART,
+                              .longestShared = limits.longestOfBlocks};
     const auto dispatch = [&](uint32_t which, uint32_t first, uint32_t count, uint32_t lists) {
         p.which = which;
         p.firstCluster = first;
@@ -271,7 +272,7 @@ void ClusterListsTest::recordLists(const gpu::Frame& f, const Scene& s, const Li
     };
     dispatch(gpu::LISTS_OF_BLOCKS, Scene::firstBlock, Scene::blocks, Scene::blocks);
     p.pageCount = limits.pages;
-    p.longest = limits.longest;
+    p.longest = p.longestShared = limits.longest;
     constexpr uint32_t side = gpu::BLOCK_SIDE;
     dispatch(gpu::LISTS_OF_TILES, 0, 0,
              gpu::divideUp(Scene::tileCount.x, side) * gpu::divideUp(Scene::tileCount.y, side) *

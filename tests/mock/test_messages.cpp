@@ -112,8 +112,8 @@ TEST(Messages, TellOfWhatTheDeviceLacks)
     log.messages.clear();
     vulkan.limits.maxTexelBufferElements = 1u << 27;
     ASSERT_TRUE(Lighting::create(device, {.framesInFlight = 1}));
-    log.expect(CND_MESSAGE_INFO, "ends loops after 65535 iterations: lists of more than 12287 "
-                                 "sphere lights, or of fewer lights of other types,");
+    log.expect(CND_MESSAGE_INFO, "ends loops after 65535 iterations: brute force of more than "
+                                 "12287 sphere lights, or of fewer lights of other types,");
     vulkan.isLlvmpipe = false;
     device.debugUtilsEnabled = VK_TRUE; // the mock does not have the extension
     ASSERT_TRUE(Lighting::create(device, {.framesInFlight = 1}));

@@ -196,8 +196,8 @@ typedef struct CndLightingViewDesc {
     // Bytes for the light lists of a frame, 0: default, 64 MiB (less if the device's
     // maxStorageBufferRange is smaller). Clusters whose lists do not fit are shaded by walking the
     // light tree. This is slower and gives the same image except for rounding.
-    // CndLightingStats::unlistedClusters counts these clusters. Beside the budget, the sums of
-    // parts of long lists take a ninth of it.
+    // CndLightingStats::unlistedClusters counts these clusters. The sums of long lists take a ninth
+    // as much memory, which is not part of the budget.
     VkDeviceSize listBudget;
     // Bytes for what pixels see of lights, with CndLightingDesc::shadows. Every light on the list
     // of a cluster takes 256 of them, unless it is seen wholly or is proven to be hidden. Each 256
@@ -363,7 +363,8 @@ typedef struct CndLightingStats {
     // come the lists of blocks of 4x4 tiles, from which those of clusters are made: while these are
     // missing, only they count, so a view with the larger budget may miss some bytes again. Then
     // unlistedClusters may be 0, but lists are made more slowly, and with shadows there are fewer
-    // wonProofs.
+    // wonProofs. Last comes the room for the sums of long lists, each of which is otherwise walked
+    // by one group.
     uint64_t missingListBytes;
     // With CND_INFLUENCE_BY_ERROR: illuminance (lx) at which lights are cut; 0: no light is cut.
     float cutBelow;

@@ -80,9 +80,13 @@ uint shareList(ListWriter list, uint tile, uint height)
 {
     const uint parts = partsOf(list);
     const uint part = atomicAdd(counters.parts, parts);
-    const uint first = part + parts <= params.mostParts ? reservePage() : NO_PAGE;
-    if (first == NO_PAGE)
+    if (part + parts > params.mostParts)
         return list.headPage;
+    const uint first = reservePage();
+    if (first == NO_PAGE) {
+        atomicAdd(counters.missingPages, 1u);
+        return list.headPage;
+    }
     const uint words = first * PAGE_WORDS;
     entries[words] = pageHeader(0u, list.headPage);
     entries[words + 1u] = tile;

@@ -23,10 +23,10 @@ TileWork tileWork(uint place)
     return TileWork(entryAt(words + 1u), list, place - entryAt(words + 3u));
 }
 
-// Returns the first block of a part. It has no light if the list has no more pages.
-Block partBlock(LightBatch batch, TileWork work)
+// Returns the first block of a part. It has no light if the list has no more pages. block: that of the
+// page without lights.
+Block partBlock(LightBatch batch, TileWork work, Block block)
 {
-    Block block = pageBlock(work.list);
     for (uint i = 0u; i <= work.part * PART_PAGES; ++i)
         block = nextBlock(batch, block);
     return block;
@@ -43,10 +43,10 @@ bool sumOfParts(TileWork work, inout vec3 light)
     for (uint i = 0u; i < SUM_PAGES; ++i)
         partSums[at + i * PAGE_WORDS] = floatBitsToUint(light[i]);
     memoryBarrierBuffer();
-    // Frames that keep their lists go on counting.
-    if ((atomicAdd(partSums[counter], 1u) + 1u) % parts != 0u)
+    if (atomicAdd(partSums[counter], 1u) + 1u != parts)
         return false;
     memoryBarrierBuffer();
+    partSums[counter] = 0u; // for a frame that keeps the list
     light = vec3(0.0);
     for (uint p = 0u; p < parts; ++p)
         for (uint i = 0u; i < SUM_PAGES; ++i)

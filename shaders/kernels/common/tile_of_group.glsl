@@ -27,7 +27,8 @@ layout(scalar, binding = SHADE_WORK) readonly buffer Work
 
 #include "kernels/common/cluster_of_depth.glsl"
 
-// Sets `place` to the place in workTiles of what this workgroup shades. Returns false after the last.
+// Sets `place` to the place in workTiles of what this workgroup shades. Returns false if there is no
+// work for it.
 bool takeWork(out uint place)
 {
     const WorkList work = works[tileHeight * TILE_CLASSES + tileClass];

@@ -23,10 +23,10 @@ constexpr double mostPairsTested = 2e7;
 constexpr uint64_t mostBoxesTested = 20000000; // then the points so far stand for all
 constexpr size_t lightsPerPoint = 2;
 
-// What llvmpipe takes for a pair of a pixel and a light (DECISIONS 86), in seconds of CPU time: if
-// the light is hidden; if nothing is between it and the tile of the pixel; if a few triangles may
-// be there, for each box that the search of the pixel tests; and otherwise for the pair and each
-// box.
+// What llvmpipe takes for a pair of a pixel and a light, in seconds of CPU time (DECISIONS 86). A
+// hidden light has one price, and a light with nothing between it and the pixel's tile another. If
+// only a few triangles may be there, each box that the search of the pixel tests has a price. All
+// other pairs have a price of their own and one per box.
 constexpr double hiddenPair = 0.02e-6, litPair = 0.02e-6, listedBox = 0.006e-6, walkedPair = 1.2e-6,
                  walkedBox = 0.018e-6;
 constexpr uint64_t mostListed = 6; // triangles
