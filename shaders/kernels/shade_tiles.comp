@@ -34,7 +34,7 @@ void shade(TileWork work, uvec2 pixel, float depth)
     if (work.list != 0u) {
         if (block.first != work.list * PAGE_WORDS + 1u) // the pixel has another list
             return;
-        block = partBlock(params.batch, work, block);
+        block = partBlock(params.batch, work);
     } else if (block.count == 0u)
         return;
     const Receiver r = receiverAt(pixel, depth);

@@ -23,10 +23,10 @@ TileWork tileWork(uint place)
     return TileWork(entryAt(words + 1u), list, place - entryAt(words + 3u));
 }
 
-// Returns the first block of a part. It has no light if the list has no more pages. block: that of the
-// page without lights.
-Block partBlock(LightBatch batch, TileWork work, Block block)
+// Returns the first block of a part. It has no light if the list has no more pages.
+Block partBlock(LightBatch batch, TileWork work)
 {
+    Block block = pageBlock(work.list); // read again, for fewer registers
     for (uint i = 0u; i <= work.part * PART_PAGES; ++i)
         block = nextBlock(batch, block);
     return block;
