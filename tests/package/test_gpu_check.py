@@ -59,7 +59,8 @@ chosen = ["--device", device] if device else []
 output = {part: run(bundle / "run", part, "--quick", "--out", work / "results", *chosen, environment=BARE)
           for part in ("correctness", "performance")}
 for part, text in output.items():
-    require(re.search("Everything (else )?ran and passed[.]", text) and len(text) < 12000, f"{part} printed {len(text)} characters")
+    require(re.search("Everything (else )?ran and passed[.]", text), f"{part} did not pass")
+    require(len(text) < 12000, f"{part} printed {len(text)} characters")
 require(" 0 failed, 0 skipped, 0 stopped, 0 not run" in output["correctness"], "not all tests passed")
 run(bundle / "run", "correctness", "--minutes", "x", environment=BARE, status=2)
 # Time that is too short is no success.
