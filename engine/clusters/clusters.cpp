@@ -331,6 +331,7 @@ VkDeviceSize Clusters::missingBytes(const gpu::LightingCounters& counters) const
 {
     VkDeviceSize pages =
         counters.missingBlockPages ? 2ull * counters.missingBlockPages : counters.missingPages;
+    // The room for sums is a share of the pages.
     if (!pages && counters.parts > mostParts())
         pages = VkDeviceSize(counters.parts) * gpu::PAGES_PER_PART - pageCount();
     return pages * pageBytes;
@@ -377,7 +378,7 @@ void Clusters::recordLists(const gpu::Frame& f, uint32_t type, const gpu::TreeSh
 {
     gpu::ClusterListsParams params = listParams(type, tree, tileCount);
     params.longest = longest;
-    // Parts are short. But count_pairs walks the whole list, and takes two turns for each light.
+    // Loops over a part are short. But count_pairs walks the whole list, two turns per light.
     params.longestShared =
         longest > gpu::SHARED_FROM ? std::max(longest, params.maxSteps / 2) : longest;
     params.which = gpu::LISTS_OF_TILES;

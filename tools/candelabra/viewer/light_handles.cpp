@@ -31,9 +31,8 @@ double distanceToSegment(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b)
     return glm::length(a + t * d - p);
 }
 
-// Tells whether the point `p` of the picture is inside a quadrilateral. `edges` holds the two ends
-// of each edge. An edge with an end behind the camera is missing from it; the function then returns
-// false.
+// Tells whether the point `p` of the picture is inside a quadrilateral. `edges` holds both ends of
+// every edge that is in front of the camera. The function returns false unless all four are.
 bool isInside(glm::dvec2 p, const std::vector<glm::dvec2>& edges)
 {
     int left = 0, right = 0;

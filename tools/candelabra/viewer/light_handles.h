@@ -23,9 +23,9 @@ struct LightHandles {
     // Returns the handle at a place of the picture, or at most `slack` pixels beside its line.
     // Squares come first, because the lines are longer.
     std::optional<uint32_t> at(const Projection& view, glm::dvec2 place, double slack) const;
-    // Returns the point on the line or plane of a handle that a place of the picture shows. This
-    // function returns nothing if that point is behind the camera. It also returns nothing if the
-    // camera looks almost along the line or plane, because one pixel then shows a great part of it.
+    // Returns the point on the line or plane of a handle that a place of the picture shows. There
+    // is none if it would be behind the camera. There is none either if the camera looks almost
+    // along the line or plane, because one pixel then shows a great part of the line or plane.
     std::optional<glm::dvec3> pointOn(uint32_t handle, const Projection& view,
                                       glm::dvec2 place) const;
 };
